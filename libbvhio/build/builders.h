@@ -1,0 +1,26 @@
+// The table of builders: from triangles to a canonical BVH.
+#pragma once
+
+#include <span>
+
+#include "core/bvh.h"
+#include "core/choice.h"
+#include "core/sah_cost.h"
+#include "scene/scene.h"
+
+namespace bvhio {
+
+struct BuildOptions {
+    SahCosts costs;
+    uint32_t bins = 0;  // per axis, for binned builders; 0 = the builder's own default
+    uint32_t maxLeafSize = 4;
+};
+
+/// A builder returns a tree that keeps every invariant of Bvh, whose bytes depend on the scene and the options alone: not on the
+/// number of threads, the compiler or the processor.
+using Builder = Choice<Bvh (*)(const Scene&, const BuildOptions&)>;
+
+/// All builders, the default first.
+std::span<const Builder> builders();
+
+}  // namespace bvhio

@@ -1,0 +1,10 @@
+// The plainest builder: object median splits.
+#pragma once
+
+#include "build/builders.h"
+
+namespace bvhio {
+
+Bvh buildMedian(const Scene& scene, const BuildOptions& options);
+
+}  // namespace bvhio

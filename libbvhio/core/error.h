@@ -1,0 +1,29 @@
+// The one exception for bad data from outside, and its kinds, which are the tools' exit codes.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace bvhio {
+
+/// What went wrong; the value is the exit code of a tool that meets it.
+enum class ErrorKind : int {
+    usage = 1,        // a bad option value
+    io = 2,           // a missing file, a full disk, a closed pipe
+    invalid = 3,      // damaged or meaningless input
+    resources = 4,    // out of memory or over a limit
+    unsupported = 5,  // valid input that this version cannot read
+};
+
+/// Thrown for bad data from outside, never for bugs. The message is one line without the tool's name or a full stop: what is
+/// wrong, where (file, chunk and byte, mesh and vertex), and what to do about it where that is known.
+class Error : public std::runtime_error {
+  public:
+    Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+    ErrorKind kind() const { return kind_; }
+
+  private:
+    ErrorKind kind_;
+};
+
+}  // namespace bvhio

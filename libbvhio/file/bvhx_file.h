@@ -1,0 +1,57 @@
+// A whole .bvhx file as an object, read from and written to streams in one pass.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compress/forms.h"
+#include "core/sah_cost.h"
+#include "scene/scene.h"
+
+namespace bvhio {
+
+/// One step of a file's history: which tool made it, with which options. Left out of the content hash.
+struct ProvenanceEntry {
+    std::string tool;     // "bvh-build"
+    std::string version;  // of the tools, "0.1.0"
+    std::string options;  // as JSON, with defaults filled in
+    bool operator==(const ProvenanceEntry&) const = default;
+};
+
+/// A chunk whose type this version does not know, kept byte for byte so that a pass can hand it on.
+struct UnknownChunk {
+    uint32_t type;
+    uint32_t flags;
+    std::vector<std::byte> payload;  // decoded
+};
+
+/// The content of a file. After `readBvhx` it is fully valid: nothing needs to be checked again.
+struct BvhxFile {
+    Scene scene;
+    EncodedBvh bvh;
+    SahCosts costs;  // what the tree was built for
+    std::vector<ProvenanceEntry> provenance;
+    std::vector<UnknownChunk> unknownChunks;
+};
+
+enum class GeometryEncoding { raw, draco };
+
+struct WriteOptions {
+    std::string codec = "none";  // a row of codecs()
+    int codecLevel = 0;          // 0 = the codec's default
+    GeometryEncoding geometry = GeometryEncoding::raw;
+    int dracoPositionBits = 16;
+};
+
+/// Reads a file: mapped when `path` is a regular file, so that arrays stored with codec none are used in place; "-" is standard
+/// input. Throws Error: io, invalid (damaged; chunk and byte named), unsupported (newer major version, unknown critical chunk).
+BvhxFile readBvhx(const std::filesystem::path& path);
+/// Reads from memory, copying what it keeps.
+BvhxFile readBvhx(std::span<const std::byte> bytes, const std::string& name);
+
+/// Writes in one pass to a stream that need not be seekable.
+void writeBvhx(std::ostream& out, const BvhxFile& file, const WriteOptions& options);
+
+}  // namespace bvhio

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Installs what the project needs on Debian 12: the one place that lists its packages. CMake finds each of them
+# (libbvhio, tools, tests and tests/bench). Usage: samples/setup.sh [build] [tests] [bench]; nothing given means build.
+# Does nothing when all is there; needs root, or sudo, only when something is missing.
+set -euo pipefail
+
+build=(
+    g++ cmake ninja-build pkg-config
+    libtbb-dev              # threads
+    libhwy-dev              # SIMD chosen at run time
+    libdraco-dev            # Draco meshes and geometry
+    libtinygltf-dev         # glTF; its headers include the two below
+    nlohmann-json3-dev libstb-dev
+    libmeshoptimizer-dev    # EXT_meshopt_compression
+    libtinyobjloader-dev    # OBJ
+    libzstd-dev             # the zstd codec
+    libxxhash-dev           # checksums
+    libpng-dev              # images
+    libcli11-dev            # command lines
+    libspdlog-dev           # logs
+)
+tests=(
+    libgtest-dev
+    clang clang-format libclang-rt-14-dev   # the second compiler, the format check, the fuzzers
+    python3 python3-xxhash python3-zstandard  # the second reader of the format
+)
+bench=(libembree-dev)       # the peer
+
+wanted=()
+for part in "${@:-build}"; do
+    case "$part" in
+        build) wanted+=("${build[@]}") ;;
+        tests) wanted+=("${tests[@]}") ;;
+        bench) wanted+=("${bench[@]}") ;;
+        *) echo "setup.sh: unknown part '$part': use build, tests or bench" >&2; exit 1 ;;
+    esac
+done
+
+missing=()
+for package in "${wanted[@]}"; do
+    status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+    [ "$status" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+echo "Installing: ${missing[*]}" >&2
+sudo=()
+[ "$(id -u)" -eq 0 ] || sudo=(sudo)
+"${sudo[@]}" apt-get update -qq
+DEBIAN_FRONTEND=noninteractive "${sudo[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2

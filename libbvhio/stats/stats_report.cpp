@@ -1,0 +1,39 @@
+#include "stats/stats_report.h"
+
+#include <cinttypes>
+#include <cstdio>
+
+#include "stats/hashes.h"
+#include "stats/size_stats.h"
+#include "stats/tree_stats.h"
+
+namespace bvhio {
+
+std::string hashText(uint64_t hash) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016" PRIx64, hash);
+    return text;
+}
+
+Report statsReport(const Scene& scene, const EncodedBvh& encoded, const StatsOptions& options) {
+    const Bvh bvh = std::visit([](const auto& form) { return form.decode(); }, encoded);
+    Report report;
+    report["form"] = std::visit([](const auto& form) { return form.kName; }, encoded);
+    report["layout"] = layoutName(bvh);
+    report["primitives"] = scene.triangles.size();
+    addTo(report, treeStats(bvh, options.costs));
+    if (options.epo) {
+        const Epo overlap = epo(scene, bvh, options.costs, *options.epo);
+        report["epo"] = overlap.value;
+        report["epo_exact"] = overlap.isExact;
+        report["epo_sampled_triangles"] = overlap.sampledTriangles;
+        report["epo_standard_error"] = overlap.standardError;
+    }
+    addTo(report, sizeStats(scene, encoded));
+    report["topology_hash"] = hashText(topologyHash(bvh));
+    report["bounds_hash"] = hashText(boundsHash(bvh));
+    report["geometry_hash"] = hashText(geometryHash(scene));
+    return report;
+}
+
+}  // namespace bvhio

@@ -1,0 +1,111 @@
+#include "stats/tree_stats.h"
+
+#include <string>
+
+namespace bvhio {
+namespace {
+
+/// The half area that two siblings' boxes share. Boxes that only touch share none; boxes flat on the same
+/// axis may well.
+double sharedHalfArea(const Aabb& a, const Aabb& b) {
+    const Aabb shared{max(a.min, b.min), min(a.max, b.max)};
+    if (shared.isEmpty()) return 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool isFlat = a.min[axis] == a.max[axis] || b.min[axis] == b.max[axis];
+        if (!isFlat && shared.min[axis] == shared.max[axis]) return 0;
+    }
+    return halfArea(shared);
+}
+
+void count(std::vector<uint64_t>& histogram, size_t value) {
+    if (histogram.size() <= value) histogram.resize(value + 1);
+    ++histogram[value];
+}
+
+Report histogramReport(const std::vector<uint64_t>& histogram) {
+    Report report = Report::object();
+    for (size_t value = 0; value < histogram.size(); ++value)
+        if (histogram[value] > 0) report[std::to_string(value)] = histogram[value];
+    return report;
+}
+
+}  // namespace
+
+TreeStats treeStats(const Bvh& bvh, const SahCosts& costs) {
+    TreeStats stats;
+    stats.references = bvh.primitives.size();
+    stats.nodes = bvh.nodeCount();
+    stats.costs = costs;
+    stats.sahCost = sahCost(bvh, costs);
+
+    const double rootArea = halfArea(bvh.nodes[0].bounds);
+    double innerArea = 0, sharedArea = 0, depths = 0;
+    std::vector<uint32_t> depthOf(bvh.nodes.size());
+    for (size_t i = 0; i < bvh.nodes.size(); ++i) {
+        if (i == 1) continue;  // the unused slot beside the root
+        const Node& node = bvh.nodes[i];
+        const double area = halfArea(node.bounds);
+        const double probability = rootArea > 0 ? area / rootArea : 1;  // as in sahCost
+        if (node.isLeaf()) {
+            ++stats.leaves;
+            stats.expectedLeaves += probability;
+            stats.expectedTriangles += probability * node.primitiveCount;
+            depths += depthOf[i];
+            count(stats.leafDepths, depthOf[i]);
+            count(stats.leafSizes, node.primitiveCount);
+        } else {
+            ++stats.innerNodes;
+            stats.expectedInnerNodes += probability;
+            depthOf[node.left()] = depthOf[node.right()] = depthOf[i] + 1;
+            innerArea += area;
+            sharedArea += sharedHalfArea(bvh.nodes[node.left()].bounds, bvh.nodes[node.right()].bounds);
+        }
+    }
+    stats.maxDepth = uint32_t(stats.leafDepths.size()) - 1;
+    stats.averageLeafDepth = depths / double(stats.leaves);
+    stats.childOverlap = innerArea > 0 ? sharedArea / innerArea : 0;
+    return stats;
+}
+
+void addTo(Report& report, const TreeStats& stats) {
+    report["references"] = stats.references;
+    report["nodes"] = stats.nodes;
+    report["inner_nodes"] = stats.innerNodes;
+    report["leaves"] = stats.leaves;
+    report["max_depth"] = stats.maxDepth;
+    report["average_leaf_depth"] = stats.averageLeafDepth;
+    report["sah_cost"] = stats.sahCost;
+    report["traversal_cost"] = stats.costs.traversal;
+    report["intersection_cost"] = stats.costs.intersection;
+    report["expected"] = {{"inner_nodes", stats.expectedInnerNodes},
+                          {"leaves", stats.expectedLeaves},
+                          {"triangles", stats.expectedTriangles}};
+    report["child_overlap"] = stats.childOverlap;
+    report["leaf_depths"] = histogramReport(stats.leafDepths);
+    report["leaf_sizes"] = histogramReport(stats.leafSizes);
+}
+
+std::string_view layoutName(const Bvh& bvh) {
+    // Breadth first, the pairs lie in the order of their parents.
+    bool isBreadthFirst = true, isDepthFirst = true;
+    uint32_t next = 2;
+    for (size_t i = 0; i < bvh.nodes.size() && isBreadthFirst; ++i) {
+        if (i == 1 || bvh.nodes[i].isLeaf()) continue;
+        isBreadthFirst = bvh.nodes[i].first == next;
+        next += 2;
+    }
+    next = 2;
+    std::vector<uint32_t> open{0};
+    while (!open.empty() && isDepthFirst) {
+        const Node& node = bvh.nodes[open.back()];
+        open.pop_back();
+        if (node.isLeaf()) continue;
+        isDepthFirst = node.first == next;
+        next += 2;
+        open.push_back(node.right());
+        open.push_back(node.left());
+    }
+    return isDepthFirst ? "dfs" : isBreadthFirst ? "bfs" : "other";
+}
+
+}  // namespace bvhio

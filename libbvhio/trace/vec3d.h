@@ -1,0 +1,46 @@
+// Vec3 in double, for what is computed once per ray and then rounded: bases, normals, hit points.
+#pragma once
+
+#include <cmath>
+
+#include "core/vec3.h"
+
+namespace bvhio {
+
+/// A point or a direction in double. Only + - * / and sqrt touch it, which IEEE 754 rounds the same way on
+/// every machine.
+struct Vec3d {
+    double x = 0, y = 0, z = 0;
+
+    constexpr Vec3d() = default;
+    constexpr Vec3d(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
+    constexpr explicit Vec3d(Vec3 v) : x(v.x), y(v.y), z(v.z) {}
+    constexpr explicit operator Vec3() const { return {float(x), float(y), float(z)}; }
+};
+
+constexpr Vec3d operator+(Vec3d a, Vec3d b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+constexpr Vec3d operator-(Vec3d a, Vec3d b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+constexpr Vec3d operator*(Vec3d a, double s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
+constexpr double dot(Vec3d a, Vec3d b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+constexpr Vec3d cross(Vec3d a, Vec3d b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(Vec3d a) {
+    return std::sqrt(dot(a, a));
+}
+/// The unit vector along `a`; the zero vector stays zero. Products of floats neither overflow nor vanish in
+/// double.
+inline Vec3d normalize(Vec3d a) {
+    const double l = length(a);
+    return l > 0 ? Vec3d{a.x / l, a.y / l, a.z / l} : a;
+}
+
+}  // namespace bvhio

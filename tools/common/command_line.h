@@ -1,0 +1,82 @@
+// A tool's command line: declared option by option, parsed once, and remembered for provenance. Hides CLI11.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/progress_bar.h"
+#include "core/choice.h"
+#include "core/report.h"
+
+namespace bvhio {
+
+struct ToolInfo {
+    std::string name;      // "bvh-build"
+    std::string summary;   // one sentence for --help
+    std::string examples;  // lines below the options
+};
+
+/// The version of the tools, "0.1.0".
+std::string_view toolsVersion();
+
+/// Thrown by parse() once --help or --version has been printed.
+struct HelpShown {};
+
+/// One allowed value of an option and what it means.
+struct NamedValue {
+    std::string_view name, summary;
+};
+
+template <class Function>
+std::vector<NamedValue> namedValues(std::span<const Choice<Function>> table) {
+    std::vector<NamedValue> values;
+    for (const auto& row : table) values.push_back({row.name, row.summary});
+    return values;
+}
+
+/// Every option is bound to a variable that holds its default and is overwritten by parse(). `names` is
+/// "--bins" or
+/// "-o,--output". Options are remembered with their values, so options() can tell how a file was made.
+class CommandLine {
+  public:
+    CommandLine(const ToolInfo& tool, int argc, char** argv);
+    ~CommandLine();
+
+    void positional(const std::string& name, std::string& value, const std::string& help);
+    void number(const std::string& names, uint32_t& value, uint32_t min, uint32_t max,
+                const std::string& help);
+    void number(const std::string& names, uint64_t& value, uint64_t min, uint64_t max,
+                const std::string& help);
+    /// A finite number in [min, max].
+    void number(const std::string& names, float& value, float min, float max, const std::string& help);
+    void text(const std::string& names, const std::string& valueName, std::string& value,
+              const std::string& help);
+    void flag(const std::string& names, bool& value, const std::string& help);
+    /// One of `values`; a misspelt one is refused with the nearest.
+    void choice(const std::string& names, std::string& value, const std::vector<NamedValue>& values,
+                const std::string& help);
+    /// From here on options say where things go, not what comes out: options() leaves them out. --help lists
+    /// them apart.
+    void beginPlumbing();
+
+    /// Adds what every tool takes (threads, verbosity, progress, version, help) and parses; limits the
+    /// threads and sets the log level accordingly. Throws Error{usage}, or HelpShown.
+    void parse();
+
+    const std::string& tool() const { return tool_.name; }
+    /// The options declared before beginPlumbing() with their values, defaults included. For parse() to have
+    /// run.
+    Report options() const;
+    ProgressMode progressMode() const { return progressMode_; }
+
+  private:
+    struct Parser;
+
+    ToolInfo tool_;
+    std::unique_ptr<Parser> parser_;
+    ProgressMode progressMode_ = ProgressMode::automatic;
+};
+
+}  // namespace bvhio

@@ -1,0 +1,65 @@
+#include "common/pass.h"
+
+#include <sys/resource.h>
+
+#include "common/input.h"
+#include "common/log.h"
+#include "core/parallel.h"
+
+namespace bvhio {
+
+Pass::Pass(CommandLine& line, const std::string& inputName, const std::string& inputHelp) : line_(line) {
+    line.beginPlumbing();
+    line.positional(inputName, input_, inputHelp);
+    line.text("-o,--output", "FILE", outputPath_, "where the container goes (default -: standard output)");
+    line.text("--report", "FILE", reportPath_, "write what was done as JSON; -: standard output");
+    line.parse();
+    refuseTerminalInput(input_);
+    if (reportPath_ == "-" && outputPath_ == "-")
+        throw Error(ErrorKind::usage, "--report: standard output is taken by the container: use -o FILE");
+    output_.emplace(outputPath_, OutputKind::binary);
+    if (!reportPath_.empty()) report_.emplace(reportPath_, OutputKind::text);
+    stages_.emplace(line.tool(), line.progressMode());
+}
+
+BvhxFile Pass::read() {
+    stages_->begin("read");
+    BvhxFile file = readBvhx(input_);
+    sahBefore_ = sahCost(file);
+    return file;
+}
+
+void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string& work, const Report& extra) {
+    stages_->begin("write");
+    file.provenance.push_back({line_.tool(), std::string(toolsVersion()), line_.options().dump()});
+    writeBvhx(output_->stream(), file, options);
+    output_->commit();
+    stages_->end();
+    for (const auto& [stage, seconds] : stages_->stages())
+        logInfo(stage + ": " + std::to_string(seconds) + " s");
+    if (!report_) return;
+
+    Report report = {{"tool", line_.tool()}, {"version", std::string(toolsVersion())}};
+    report["sah_before"] = sahBefore_ ? Report(*sahBefore_) : Report();
+    report["sah_after"] = sahCost(file);
+    report["seconds"] = stages_->seconds(work);
+    for (const auto& [stage, seconds] : stages_->stages()) report["stage_seconds"][stage] = seconds;
+    report["threads"] = threadCount();
+    report["peak_bytes"] = peakBytes();
+    report["options"] = line_.options();
+    report.update(extra);
+    report_->stream() << report.dump(2) << '\n';
+    report_->commit();
+}
+
+double sahCost(const BvhxFile& file) {
+    return std::visit([&](const auto& form) { return sahCost(form.decode(), file.costs); }, file.bvh);
+}
+
+uint64_t peakBytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return uint64_t(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace bvhio

@@ -1,0 +1,44 @@
+// The frame of a tool that writes a container: its options, its stages, its provenance and its report.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/command_line.h"
+#include "common/output.h"
+#include "common/progress_bar.h"
+#include "core/report.h"
+#include "file/bvhx_file.h"
+
+namespace bvhio {
+
+/// Declare the tool's own options first; Pass adds INPUT, -o and --report and parses. Then call read (a pass
+/// over containers), work, and finish.
+class Pass {
+  public:
+    Pass(CommandLine& line, const std::string& inputName, const std::string& inputHelp);
+
+    const std::string& input() const { return input_; }
+    ProgressBar& stages() { return *stages_; }
+    /// Reads the container and notes its cost, the report's sah_before.
+    BvhxFile read();
+    /// Adds the tool's provenance, writes the container and then the report. `work` names the stage whose
+    /// time is the report's `seconds`; `extra` joins the report.
+    void finish(BvhxFile& file, const WriteOptions& options, const std::string& work,
+                const Report& extra = {});
+
+  private:
+    CommandLine& line_;
+    std::string input_ = "-", outputPath_ = "-", reportPath_;
+    std::optional<ProgressBar> stages_;
+    std::optional<Output> output_, report_;
+    std::optional<double> sahBefore_;
+};
+
+/// The cost of the tree as its form stores it.
+double sahCost(const BvhxFile& file);
+
+/// The most memory the process has had, in bytes.
+uint64_t peakBytes();
+
+}  // namespace bvhio

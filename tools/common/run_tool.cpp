@@ -1,0 +1,30 @@
+#include "common/run_tool.h"
+
+#include <csignal>
+#include <new>
+
+#include "common/log.h"
+#include "common/output.h"
+#include "core/error.h"
+
+namespace bvhio {
+
+int runTool(const ToolInfo& tool, int argc, char** argv, const std::function<ExitCode(CommandLine&)>& body) {
+    startLog(tool.name);
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), reported like any other
+    removeTemporariesOnSignals();
+    try {
+        CommandLine line(tool, argc, argv);
+        return int(body(line));
+    } catch (const HelpShown&) {
+        return int(ExitCode::done);
+    } catch (const Error& error) {
+        logError(error.what());
+        return int(error.kind());
+    } catch (const std::bad_alloc&) {
+        logError("out of memory");
+        return int(ExitCode::resources);
+    }
+}
+
+}  // namespace bvhio

@@ -1,0 +1,14 @@
+// "Did you mean": the nearest of some names.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace bvhio {
+
+/// The name that differs from `word` in the fewest letters, or "" when none is near enough to be what was
+/// meant.
+std::string_view nearestName(std::string_view word, std::span<const std::string_view> names);
+
+}  // namespace bvhio

@@ -1,0 +1,26 @@
+// Depth-first order, the folklore layout that others are measured against: a pair of siblings, then all pairs
+// below the left one, then all below the right one. The first pair below a left child directly follows the
+// child's own.
+
+#include "relayout/dfs.h"
+
+#include <array>
+
+namespace bvhio {
+
+NodeOrder orderDepthFirst(const Bvh& bvh) {
+    NodeOrder order;
+    order.reserve(bvh.nodes.size() / 2 - 1);
+    std::array<uint32_t, kMaxDepth + 2> stack{0};  // nodes whose subtrees are still to come
+    size_t waiting = 1;
+    while (waiting > 0) {
+        const Node& node = bvh.nodes[stack[--waiting]];
+        if (node.isLeaf()) continue;
+        order.push_back(node.left());
+        stack[waiting++] = node.right();
+        stack[waiting++] = node.left();
+    }
+    return order;
+}
+
+}  // namespace bvhio

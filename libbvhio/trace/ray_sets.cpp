@@ -3,38 +3,14 @@
 #include <charconv>
 
 #include "core/parallel.h"
-#include "core/random.h"
 #include "trace/find_camera.h"
+#include "trace/sampling.h"
 #include "trace/surface_point.h"
 
 namespace bvhio {
 namespace {
 
 constexpr size_t kGrain = 4096;  // rays per task
-
-/// The stream of one ray. The counter is mixed first (the finaliser of SplitMix64, Steele et al. 2014):
-/// neighbouring seeds of one linear generator give neighbouring numbers.
-Random streamOf(uint64_t seed, uint64_t index) {
-    uint64_t z = seed * 0xD1342543DE82EF95ull + (index + 1) * 0x9E3779B97F4A7C15ull;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return Random(z ^ (z >> 31));
-}
-
-/// A unit vector with cosine-weighted density about the unit vector n: n plus a uniform point of the unit
-/// sphere, which in turn comes from the ball by rejection, so that no sine is needed.
-Vec3d cosineDirection(Vec3d n, Random& random) {
-    for (;;) {
-        const double x = 2.0 * random.uniform() - 1, y = 2.0 * random.uniform() - 1,
-                     z = 2.0 * random.uniform() - 1;
-        const Vec3d inBall{x, y, z};
-        const double squared = dot(inBall, inBall);
-        if (squared > 1 || squared < 1e-12) continue;
-        const Vec3d sum = n + normalize(inBall);
-        if (dot(sum, sum) > 1e-12)
-            return normalize(sum);  // else the point lay opposite n, and the sum is rounding noise
-    }
-}
 
 Error tooMany(uint64_t rays) {
     return {ErrorKind::usage,
@@ -97,7 +73,7 @@ RaySet fromSurfaces(const RaySetSource& source, uint32_t raysPerPixel, const Mak
             const SurfacePoint point = surfacePoint(source.scene, primaryRays[pixel], hits[pixel]);
             for (uint32_t k = 0; k < raysPerPixel; ++k) {
                 const size_t at = i * raysPerPixel + k;
-                Random random = streamOf(source.options.seed, uint64_t(pixel) * raysPerPixel + k);
+                Random random = randomStream(source.options.seed, uint64_t(pixel) * raysPerPixel + k);
                 set.rays[at] = make(point, random);
                 set.rays[at].origin = point.origin;
                 set.pixels[at] = pixel;
@@ -158,7 +134,7 @@ RaySet randomLines(const RaySetSource& source) {
         area[0] = area[1] = area[2] = 1;  // a line or a point: all sides alike
     parallelChunks(count, kGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            Random random = streamOf(source.options.seed, i);
+            Random random = randomStream(source.options.seed, i);
             const double pick = random.uniform() * (area[0] + area[1] + area[2]);
             const int axis = pick < area[0] ? 0 : pick < area[0] + area[1] ? 1 : 2;
             const bool far = random.below(2) == 1;

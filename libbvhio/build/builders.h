@@ -16,8 +16,8 @@ struct BuildOptions {
     uint32_t maxLeafSize = 4;
 };
 
-/// A builder returns a tree that keeps every invariant of Bvh, whose bytes depend on the scene and the options alone: not on the
-/// number of threads, the compiler or the processor.
+/// A builder returns a tree that keeps every invariant of Bvh, whose bytes depend on the scene and the
+/// options alone: not on the number of threads, the compiler or the processor.
 using Builder = Choice<Bvh (*)(const Scene&, const BuildOptions&)>;
 
 /// All builders, the default first.

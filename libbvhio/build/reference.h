@@ -1,0 +1,67 @@
+// References: what builders sort instead of triangles, with the box arithmetic they need.
+#pragma once
+
+#include "core/buffer.h"
+#include "core/bvh.h"
+#include "scene/scene.h"
+
+namespace bvhio {
+
+/// A box as two groups of four floats, (-min, unused) and (max, unused): the union of two boxes is one
+/// maximum of eight floats, and the extent, like the centroid doubled, one sum or difference of four. The
+/// unused lanes hold anything; nothing reads them.
+struct alignas(32) Box {
+    float negatedMin[4];
+    float max[4];
+
+    static Box empty() {
+        constexpr float inf = std::numeric_limits<float>::infinity();
+        return {{-inf, -inf, -inf, -inf}, {-inf, -inf, -inf, -inf}};
+    }
+    void extend(const Box& b) {
+        for (int i = 0; i < 4; ++i) {
+            negatedMin[i] = b.negatedMin[i] > negatedMin[i] ? b.negatedMin[i] : negatedMin[i];
+            max[i] = b.max[i] > max[i] ? b.max[i] : max[i];
+        }
+    }
+    void extendPoint(const float* p) {
+        for (int i = 0; i < 3; ++i) {
+            negatedMin[i] = -p[i] > negatedMin[i] ? -p[i] : negatedMin[i];
+            max[i] = p[i] > max[i] ? p[i] : max[i];
+        }
+    }
+    float extent(int axis) const { return max[axis] + negatedMin[axis]; }
+    int longestAxis() const {
+        return extent(0) >= extent(1) && extent(0) >= extent(2) ? 0 : extent(1) >= extent(2) ? 1 : 2;
+    }
+    float halfArea() const {
+        const float x = extent(0), y = extent(1), z = extent(2);
+        return x * y + y * z + z * x;
+    }
+    /// 0 - v, not -v: a minimum of 0 must not become -0.
+    Aabb toAabb() const {
+        return {{0 - negatedMin[0], 0 - negatedMin[1], 0 - negatedMin[2]}, {max[0], max[1], max[2]}};
+    }
+};
+
+/// A primitive's box and, in the bits of an unused lane, its index: 32 bytes.
+struct alignas(32) Reference {
+    float negatedMin[3];
+    uint32_t primitive;
+    float max[3];
+    uint32_t unused;
+
+    /// Twice the centroid of the box.
+    float centroid(int axis) const { return max[axis] - negatedMin[axis]; }
+};
+static_assert(sizeof(Reference) == sizeof(Box));
+
+/// Makes the references of all triangles, in order, with the bounds of their boxes and of their doubled
+/// centroids. Returns true when coordinates are so large or small that areas could leave the range of a
+/// float: the boxes are then scaled by a power of two, and the tree's boxes need refitting.
+bool makeReferences(const Scene& scene, Buffer<Reference>& references, Box& bounds, Box& centroids);
+
+/// The nodes of `bvh` with boxes recomputed from the triangles.
+SharedArray<Node> refitted(const Scene& scene, const Bvh& bvh);
+
+}  // namespace bvhio

@@ -9,6 +9,14 @@ class AabbForm {
   public:
     static constexpr std::string_view kName = "aabb";
     static constexpr std::string_view kSummary = "32-byte nodes with full-precision boxes";
+    static constexpr int kMaxChildren = 2;
+    /// Per box: 6 differences and 6 products; 6 minima and maxima, 4 to merge the axes, 2 comparisons.
+    static constexpr BoxTestCost kBoxTestCost{12, 12};
+
+    /// What a node says of its children, copied: the node itself need not be fetched again.
+    struct Cursor {
+        uint32_t first, primitiveCount;
+    };
 
     explicit AabbForm(Bvh bvh) : bvh_(std::move(bvh)) {}
     static AabbForm encode(const Bvh& bvh) { return AabbForm(bvh); }
@@ -17,6 +25,47 @@ class AabbForm {
     const Bvh& bvh() const { return bvh_; }
     std::span<const uint32_t> primitives() const { return bvh_.primitives; }
     size_t nodeBytes() const { return bvh_.nodes.size() * sizeof(Node); }
+
+    template <class Metrics>
+    BVHIO_INLINE bool enterRoot(const PreparedRay& ray, float tLimit, Entered<Cursor>& root,
+                                Metrics& metrics) const {
+        metrics.recordFetched(0, sizeof(Node));
+        metrics.boxesTested(1, kBoxTestCost);
+        const Node& node = bvh_.nodes[0];
+        const RayInterval part = clipToBox(ray, node.bounds, tLimit);
+        root = {{node.first, node.primitiveCount}, part.enter};
+        return !part.isEmpty();
+    }
+
+    /// The record is the pair of siblings: one cache line.
+    template <class Metrics>
+    BVHIO_INLINE int step(Cursor cursor, const PreparedRay& ray, float tLimit, Entered<Cursor>* children,
+                          Metrics& metrics) const {
+        metrics.recordFetched(cursor.first * sizeof(Node), 2 * sizeof(Node));
+        metrics.boxesTested(2, kBoxTestCost);
+        const Node* pair = bvh_.nodes.data() + cursor.first;
+        const RayInterval left = clipToBox(ray, pair[0].bounds, tLimit);
+        const RayInterval right = clipToBox(ray, pair[1].bounds, tLimit);
+        const auto entered = [&](int i, const RayInterval& part) {
+            return Entered<Cursor>{{pair[i].first, pair[i].primitiveCount}, part.enter};
+        };
+        if (left.isEmpty()) {
+            if (right.isEmpty()) return 0;
+            children[0] = entered(1, right);
+            return 1;
+        }
+        if (right.isEmpty()) {
+            children[0] = entered(0, left);
+            return 1;
+        }
+        const int nearer = right.enter < left.enter;
+        children[nearer] = entered(0, left);
+        children[1 - nearer] = entered(1, right);
+        return 2;
+    }
+
+    bool isLeaf(Cursor cursor) const { return cursor.primitiveCount != 0; }
+    PrimitiveRange primitiveRange(Cursor cursor) const { return {cursor.first, cursor.primitiveCount}; }
 
   private:
     Bvh bvh_;

@@ -3,9 +3,11 @@
 
 #include <concepts>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "core/bvh.h"
+#include "core/intersect.h"
 
 namespace bvhio {
 
@@ -14,15 +16,57 @@ struct PrimitiveRange {
     uint32_t first, count;
 };
 
-/// A form stores a BVH and knows how to decode it. What tracing asks of a form, its Cursor and steps, is added to this concept
-/// beside the loop that uses them.
+/// A node that a ray enters, as the stack of a traversal remembers it.
+template <class Cursor>
+struct Entered {
+    Cursor cursor;  // what the form needs to go on from this node
+    float enter;    // the ray's parameter where it enters the node's box
+};
+
+/// The arithmetic of one box test: subtractions and multiplications, and comparisons (minima and maxima
+/// included).
+struct BoxTestCost {
+    uint32_t arithmetic, comparisons;
+};
+
+/// The metrics policy that is free: each call vanishes. Others are in trace/metrics.h and trace/locality.h.
+struct NoMetrics {
+    BVHIO_INLINE void recordFetched(size_t, size_t) {}       // byte offset among the form's nodes, bytes
+    BVHIO_INLINE void boxesTested(uint32_t, BoxTestCost) {}  // how many boxes, the cost of each
+    BVHIO_INLINE void leafEntered(PrimitiveRange) {}
+    BVHIO_INLINE void pushed(size_t) {
+    }  // bytes of the entry; each pushed entry is popped once, unless an any-hit query ends
+    BVHIO_INLINE void popped(size_t) {}
+};
+
+/// A form stores a BVH, decodes it, and lets rays step through it as stored. Traversal (trace/traverse.h)
+/// owns the stack, the order and the culling; a form owns its Cursor (an index; an index and a decoded box;
+/// an index and ray parameters) and:
+///
+/// - enterRoot: tests the root's box; false when the ray misses it. Else `root` is where traversal starts.
+/// - step: from the cursor of an inner node, tests the children's boxes and writes those entered to
+/// `children`, nearest first (equal
+///   ones in stored order); returns how many. A child is entered when its part of the ray, cut off at
+///   `tLimit`, is not empty. The contract that makes hits the same for every form: accept a child whenever
+///   `clipToBox` accepts any box inside the child's stored box, at this tLimit, and let `enter` not exceed
+///   the `enter` that it finds for that box.
+/// - isLeaf, primitiveRange: of a cursor; leaves are entered, never stepped from.
+///
+/// Each record fetched and each box tested is told to the metrics.
 template <class F>
-concept Form = requires(const F form) {
+concept Form = requires(const F form, const typename F::Cursor cursor, const PreparedRay ray, float tLimit,
+                        Entered<typename F::Cursor>* children, Entered<typename F::Cursor>& root,
+                        NoMetrics metrics) {
     { F::kName } -> std::convertible_to<std::string_view>;
     { F::kSummary } -> std::convertible_to<std::string_view>;
-    { form.decode() } -> std::same_as<Bvh>;                                     // boxes as reconstructed
-    { form.primitives() } -> std::convertible_to<std::span<const uint32_t>>;    // leaf order -> triangle
-    { form.nodeBytes() } -> std::same_as<size_t>;                               // in memory, nodes only
+    { F::kMaxChildren } -> std::convertible_to<int>;
+    { form.decode() } -> std::same_as<Bvh>;                                   // boxes as reconstructed
+    { form.primitives() } -> std::convertible_to<std::span<const uint32_t>>;  // leaf order -> triangle
+    { form.nodeBytes() } -> std::same_as<size_t>;                             // in memory, nodes only
+    { form.enterRoot(ray, tLimit, root, metrics) } -> std::same_as<bool>;
+    { form.step(cursor, ray, tLimit, children, metrics) } -> std::same_as<int>;
+    { form.isLeaf(cursor) } -> std::same_as<bool>;
+    { form.primitiveRange(cursor) } -> std::same_as<PrimitiveRange>;
 };
 
 }  // namespace bvhio

@@ -1,0 +1,91 @@
+// How far traversal jumps in memory: the locality metrics, over the buffer of node records.
+//
+// A fetch reads one node record; its address is the record's byte offset in the form's node buffer (primitive
+// ids and vertices are separate buffers, and not counted). Fetches are consecutive when one ray makes them
+// one after the other, whether the second follows from the first or was popped from the stack. A ray's first
+// fetch has no predecessor, so rays are independent, and the numbers depend neither on the order of rays nor
+// on threads. Each is measured for T in kLocalitySizes:
+//
+// | name | per ray | what it counts |
+// |---|---|---|
+// | LJC(T) | yes | long jumps: fetches whose offset differs from the previous fetch's by at least T bytes |
+// | CMC(T) | yes | block changes: fetches whose first byte lies in another T-byte block than the previous
+// fetch's (the misses of a cache |        |     | of a single line of T bytes) | | WSS(T) | no  | the working
+// set: distinct T-byte blocks in which a fetched record begins, over all rays of the run |
+//
+// The names and the five sizes are the HeavyRT renderer's; it leaves the block where a ray starts out of WSS,
+// we do not.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <vector>
+
+#include "compress/form_concept.h"
+
+namespace bvhio {
+
+inline constexpr std::array<uint32_t, 5> kLocalitySizes{128, 512, 4096, 16384, 131072};
+
+/// Sums over rays, in the order of kLocalitySizes.
+struct LocalityCounts {
+    std::array<uint64_t, 5> longJumps{}, blockChanges{}, workingSet{};
+    bool operator==(const LocalityCounts&) const = default;
+};
+
+/// The metrics policy that follows addresses. Call `finishRay` after each ray.
+class LocalityMetrics {
+  public:
+    explicit LocalityMetrics(size_t nodeBytes) : touched_(nodeBytes / kLocalitySizes[0] / 64 + 1) {}
+
+    void recordFetched(size_t offset, size_t) {
+        const size_t block = offset / kLocalitySizes[0];
+        touched_[block / 64] |= uint64_t(1) << (block % 64);
+        if (previous_ != kNone) {
+            const size_t distance = offset > previous_ ? offset - previous_ : previous_ - offset;
+            for (size_t i = 0; i < kLocalitySizes.size(); ++i) {
+                sums_.longJumps[i] += distance >= kLocalitySizes[i];
+                sums_.blockChanges[i] += offset / kLocalitySizes[i] != previous_ / kLocalitySizes[i];
+            }
+        }
+        previous_ = offset;
+    }
+    void boxesTested(uint32_t, BoxTestCost) {}
+    void leafEntered(PrimitiveRange) {}
+    void pushed(size_t) {}
+    void popped(size_t) {}
+
+    void finishRay() { previous_ = kNone; }
+
+    /// Adds what another part of the run saw, over the same nodes.
+    void add(const LocalityMetrics& other) {
+        for (size_t i = 0; i < kLocalitySizes.size(); ++i) {
+            sums_.longJumps[i] += other.sums_.longJumps[i];
+            sums_.blockChanges[i] += other.sums_.blockChanges[i];
+        }
+        for (size_t i = 0; i < touched_.size(); ++i) touched_[i] |= other.touched_[i];
+    }
+
+    LocalityCounts counts() const {
+        LocalityCounts counts = sums_;
+        std::array<size_t, 5> last;
+        last.fill(kNone);
+        for (size_t word = 0; word < touched_.size(); ++word)
+            for (uint64_t bits = touched_[word]; bits != 0; bits &= bits - 1) {
+                const size_t offset = (word * 64 + size_t(std::countr_zero(bits))) * kLocalitySizes[0];
+                for (size_t i = 0; i < kLocalitySizes.size(); ++i) {
+                    counts.workingSet[i] += offset / kLocalitySizes[i] != last[i];
+                    last[i] = offset / kLocalitySizes[i];
+                }
+            }
+        return counts;
+    }
+
+  private:
+    static constexpr size_t kNone = ~size_t(0);
+    size_t previous_ = kNone;
+    LocalityCounts sums_;
+    std::vector<uint64_t> touched_;  // one bit for each block of the smallest size
+};
+
+}  // namespace bvhio

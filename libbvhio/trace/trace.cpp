@@ -1,0 +1,135 @@
+#include "trace/trace.h"
+
+#include <mutex>
+
+#include "core/parallel.h"
+#include "trace/trace_blocks.h"
+#include "trace/traverse.h"
+
+namespace bvhio {
+namespace {
+
+// Rays that one task traces: enough to make starting it cheap, few enough to share out.
+constexpr size_t kRaysPerTask = 1024;
+
+/// Traces one ray in the scene's own triangles.
+template <class Query, class Form, class Metrics>
+auto traceIndexed(const Form& form, const Scene& scene, const Ray& given, Metrics& metrics) {
+    const PreparedRay ray(given);
+    Query query(ray);
+    if (!ray.missesByDefinition())
+        HWY_NAMESPACE::traverse(form, HWY_NAMESPACE::IndexedTriangles{scene, form.primitives()}, ray, query,
+                                metrics);
+    return query.result();
+}
+
+template <class Query, class Result>
+void traceAllIndexed(const Scene& scene, const EncodedBvh& bvh, std::span<const Ray> rays,
+                     std::span<Result> results) {
+    std::visit(
+        [&](const auto& form) {
+            NoMetrics metrics;
+            for (size_t i = 0; i < rays.size(); ++i)
+                results[i] = traceIndexed<Query>(form, scene, rays[i], metrics);
+        },
+        bvh);
+}
+
+bool isHit(const Hit& hit) {
+    return !hit.isMiss();
+}
+bool isHit(bool occluded) {
+    return occluded;
+}
+
+template <class Query, class Form>
+TraceMeasurement measureForm(const Form& form, const Scene& scene, std::span<const Ray> rays,
+                             std::span<RayCounts> perRay) {
+    TraversalCounts sums;
+    LocalityMetrics allLocality(form.nodeBytes());
+    std::mutex mutex;
+    // Large tasks: each has its own map of the blocks that were touched.
+    parallelChunks(rays.size(), 16 * kRaysPerTask, [&](size_t begin, size_t end) {
+        CountMetrics counts;
+        LocalityMetrics locality(form.nodeBytes());
+        CombinedMetrics both(counts, locality);
+        for (size_t i = begin; i < end; ++i) {
+            const bool hit = isHit(traceIndexed<Query>(form, scene, rays[i], both));
+            const RayCounts ray = counts.finishRay(hit);
+            locality.finishRay();
+            if (!perRay.empty()) perRay[i] = ray;
+        }
+        const std::lock_guard lock(mutex);
+        sums.add(counts.sums());
+        allLocality.add(locality);
+    });
+    return {sums, allLocality.counts()};
+}
+
+template <class Query>
+auto bruteForce(const Scene& scene, const Ray& given) {
+    const PreparedRay ray(given);
+    Query query(ray);
+    if (!ray.missesByDefinition()) {
+        for (uint32_t i = 0; i < scene.triangles.size(); ++i) {
+            Hit hit;
+            hit.primitive = i;
+            if (hitTriangle(ray, scene.triangle(i), query.tLimit(), hit) && query.offer(hit)) break;
+        }
+    }
+    return query.result();
+}
+
+std::vector<PrimitiveRange> leavesOf(const EncodedBvh& encoded) {
+    const Bvh bvh = std::visit([](const auto& form) { return form.decode(); }, encoded);
+    std::vector<PrimitiveRange> leaves;
+    for (const Node& node : bvh.nodes)
+        if (node.isLeaf()) leaves.push_back({node.first, node.primitiveCount});
+    return leaves;
+}
+
+}  // namespace
+
+Tracer::Tracer(const Scene& scene, const EncodedBvh& bvh, TriangleSource source) : scene_(scene), bvh_(bvh) {
+    if (source == TriangleSource::blocks) {
+        const auto primitives =
+            std::visit([](const auto& form) { return std::span<const uint32_t>(form.primitives()); }, bvh);
+        blocks_.emplace(scene, primitives, leavesOf(bvh));
+    }
+}
+
+void Tracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
+    parallelChunks(rays.size(), kRaysPerTask, [&](size_t begin, size_t end) {
+        const auto part = rays.subspan(begin, end - begin);
+        const auto results = hits.subspan(begin, end - begin);
+        if (blocks_) return closestHitsInBlocks(bvh_, *blocks_, part, results);
+        traceAllIndexed<ClosestHit>(scene_, bvh_, part, results);
+    });
+}
+
+void Tracer::anyHits(std::span<const Ray> rays, std::span<uint8_t> occluded) const {
+    parallelChunks(rays.size(), kRaysPerTask, [&](size_t begin, size_t end) {
+        const auto part = rays.subspan(begin, end - begin);
+        const auto results = occluded.subspan(begin, end - begin);
+        if (blocks_) return anyHitsInBlocks(bvh_, *blocks_, part, results);
+        traceAllIndexed<AnyHit>(scene_, bvh_, part, results);
+    });
+}
+
+TraceMeasurement Tracer::measure(std::span<const Ray> rays, Query query, std::span<RayCounts> perRay) const {
+    return std::visit(
+        [&](const auto& form) {
+            return query == Query::closest ? measureForm<ClosestHit>(form, scene_, rays, perRay)
+                                           : measureForm<AnyHit>(form, scene_, rays, perRay);
+        },
+        bvh_);
+}
+
+Hit bruteForceClosestHit(const Scene& scene, const Ray& ray) {
+    return bruteForce<ClosestHit>(scene, ray);
+}
+bool bruteForceAnyHit(const Scene& scene, const Ray& ray) {
+    return bruteForce<AnyHit>(scene, ray);
+}
+
+}  // namespace bvhio

@@ -1,0 +1,104 @@
+// Tests the blocks of a leaf, four triangles at a time. Per target, like trace/traverse.h.
+//
+// Four triangles go through the sheared edge functions in float. A lane is dropped only when two of its edge
+// functions have opposite signs beyond any doubt (see TriangleBlock); the few that stay are put to
+// hitTriangle, which alone decides. So hits are the same, bit for bit, as without blocks.
+#if defined(BVHIO_TRACE_TRIANGLE_BLOCKS_SIMD_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BVHIO_TRACE_TRIANGLE_BLOCKS_SIMD_H
+#undef BVHIO_TRACE_TRIANGLE_BLOCKS_SIMD_H
+#else
+#define BVHIO_TRACE_TRIANGLE_BLOCKS_SIMD_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "trace/triangle_blocks.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bvhio::HWY_NAMESPACE {
+
+/// The source of triangles for one ray.
+class BlockTriangles {
+    // Four lanes; one on the most basic processors.
+    using D = hwy::HWY_NAMESPACE::CappedTag<float, 4>;
+    using Floats = hwy::HWY_NAMESPACE::Vec<D>;
+    static constexpr int kLanes = HWY_TARGET == HWY_SCALAR ? 1 : 4;
+
+  public:
+    HWY_INLINE BlockTriangles(const TriangleBlocks& blocks, const PreparedRay& ray)
+        : blocks_(blocks),
+          rayError_(blocks.rayError(ray.origin)),
+          shearX_(float(ray.shearX)),
+          shearY_(float(ray.shearY)) {}
+
+    template <class Query>
+    HWY_INLINE bool test(PrimitiveRange range, const PreparedRay& ray, Query& query) const {
+        const TriangleBlock* block = blocks_.leaf(range.first);
+        for (uint32_t left = range.count;; left -= 4, ++block) {
+            uint32_t lanes = candidates(*block, ray);
+            if (left < 4) lanes &= (1u << left) - 1;
+            for (; lanes != 0; lanes &= lanes - 1) {
+                const int lane = std::countr_zero(lanes);
+                Hit hit;
+                hit.primitive = block->primitives[lane];
+                if (hitTriangle(ray, block->triangle(lane), query.tLimit(), hit) && query.offer(hit))
+                    return true;
+            }
+            if (left <= 4) return false;
+        }
+    }
+
+  private:
+    struct Sheared {
+        Floats x, y;
+    };
+
+    HWY_INLINE Sheared shear(const float (&vertex)[3][4], int lane, const PreparedRay& ray) const {
+        namespace hn = hwy::HWY_NAMESPACE;
+        const D d;
+        const auto relative = [&](int axis) HWY_ATTR {
+            return hn::Sub(hn::Load(d, vertex[axis] + lane), hn::Set(d, ray.origin[axis]));
+        };
+        const auto x = relative(ray.axisX), y = relative(ray.axisY), z = relative(ray.axisZ);
+        return {hn::Sub(x, hn::Mul(hn::Set(d, shearX_), z)), hn::Sub(y, hn::Mul(hn::Set(d, shearY_), z))};
+    }
+
+    /// One bit for each lane that hitTriangle may accept.
+    HWY_INLINE uint32_t candidates(const TriangleBlock& block, const PreparedRay& ray) const {
+        namespace hn = hwy::HWY_NAMESPACE;
+        const D d;
+        uint32_t dropped = 0;
+        for (int lane = 0; lane < 4; lane += kLanes) {
+            const auto a = shear(block.vertices[0], lane, ray);
+            const auto b = shear(block.vertices[1], lane, ray);
+            const auto c = shear(block.vertices[2], lane, ray);
+            const auto weight0 = hn::Sub(hn::Mul(c.x, b.y), hn::Mul(c.y, b.x));
+            const auto weight1 = hn::Sub(hn::Mul(a.x, c.y), hn::Mul(a.y, c.x));
+            const auto weight2 = hn::Sub(hn::Mul(b.x, a.y), hn::Mul(b.y, a.x));
+            const auto rayError = hn::Set(d, rayError_);
+            const auto error = hn::Mul(hn::Add(hn::Load(d, block.error + lane), rayError),
+                                       hn::Add(hn::Load(d, block.reach + lane), rayError));
+            const auto minusError = hn::Neg(error);
+            // Each comparison on its own, not of a minimum and a maximum: a NaN must neither hide what the
+            // others say nor count.
+            const auto positive =
+                hn::Or(hn::Or(hn::Gt(weight0, error), hn::Gt(weight1, error)), hn::Gt(weight2, error));
+            const auto negative = hn::Or(hn::Or(hn::Lt(weight0, minusError), hn::Lt(weight1, minusError)),
+                                         hn::Lt(weight2, minusError));
+            uint8_t bits[8];
+            hn::StoreMaskBits(d, hn::And(positive, negative), bits);
+            dropped |= uint32_t(bits[0]) << lane;
+        }
+        return ~dropped & 15u;
+    }
+
+    const TriangleBlocks& blocks_;
+    float rayError_, shearX_, shearY_;
+};
+
+}  // namespace bvhio::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -59,6 +59,8 @@ class SharedArray {
     const T& operator[](size_t i) const { return view_[i]; }
     const T* begin() const { return view_.data(); }
     const T* end() const { return view_.data() + view_.size(); }
+    /// What keeps the storage alive, for a view of the same bytes as another type.
+    const std::shared_ptr<const void>& owner() const { return owner_; }
     operator std::span<const T>() const { return view_; }  // NOLINT: a SharedArray is used wherever a span is
 
   private:

@@ -1,0 +1,74 @@
+// The known chunks (format-spec/chunks.md): the table of their types, and reading them in order.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "file/bvhx_file.h"
+#include "file/container.h"
+
+namespace bvhio {
+
+inline constexpr uint32_t kSceneType = chunkType("SCEN");
+inline constexpr uint32_t kVerticesType = chunkType("VERT");
+inline constexpr uint32_t kTrianglesType = chunkType("TRIS");
+inline constexpr uint32_t kDracoType = chunkType("DRCO");
+inline constexpr uint32_t kGeometriesType = chunkType("GEOM");
+inline constexpr uint32_t kSourcePrimitivesType = chunkType("SRCP");
+inline constexpr uint32_t kTreeType = chunkType("TREE");
+inline constexpr uint32_t kNodesType = chunkType("NODE");
+inline constexpr uint32_t kPrimitivesType = chunkType("PRIM");
+
+/// A row of the table of known chunks.
+struct ChunkKind {
+    uint32_t type;
+    uint32_t flags;
+    std::string_view name;
+};
+
+/// Every known type, in the order in which chunks appear in a file; END is last.
+std::span<const ChunkKind> chunkKinds();
+/// The row of a type, or nullptr.
+const ChunkKind* findChunkKind(uint32_t type);
+
+/// Writes a chunk of known type with its flags.
+void writeChunk(ContainerWriter& writer, uint32_t type, std::span<const std::byte> payload);
+template <class T>
+void writeArrayChunk(ContainerWriter& writer, uint32_t type, const SharedArray<T>& array) {
+    writeChunk(writer, type, std::as_bytes(std::span<const T>(array)));
+}
+
+/// Reads known chunks in the order that the caller asks for, and gathers the unknown ones between them.
+class ChunkSequence {
+  public:
+    explicit ChunkSequence(ContainerReader& reader) : reader_(reader) {}
+
+    /// The payload of the next known chunk, which must be of this type; with `size` bytes, unless that is
+    /// kAnySize.
+    Bytes expect(uint32_t type, uint64_t size);
+    template <class T>
+    SharedArray<T> expectArray(uint32_t type, uint64_t count) {
+        const Bytes bytes = expect(type, count * sizeof(T));
+        return {bytes.owner(), {reinterpret_cast<const T*>(bytes.data()), size_t(count)}};
+    }
+    /// Whether the next known chunk is of this type.
+    bool nextIs(uint32_t type);
+    /// Throws FindingError about the chunk that was read last.
+    [[noreturn]] void fail(FindingId id, const std::string& message) const { reader_.fail(id, message); }
+    const std::string& name() const { return reader_.name(); }
+    /// Hands over the unknown ancillary chunks that were passed.
+    std::vector<UnknownChunk> takeUnknown() { return std::move(unknown_); }
+
+    static constexpr uint64_t kAnySize = ~uint64_t(0);
+
+  private:
+    const ChunkHeader& peek();
+
+    ContainerReader& reader_;
+    std::optional<ChunkHeader> next_;
+    std::vector<uint32_t> seen_;
+    std::vector<UnknownChunk> unknown_;
+};
+
+}  // namespace bvhio

@@ -1,0 +1,132 @@
+#include "file/form_chunks.h"
+
+#include <cmath>
+#include <type_traits>
+
+#include "core/bytes.h"
+#include "core/validate.h"
+#include "file/scene_chunks.h"
+
+namespace bvhio {
+namespace {
+
+constexpr size_t kTreeSize = 64;
+
+/// What every form's tree has.
+struct TreeParameters {
+    uint32_t form = 0;
+    uint64_t nodeSlots = 0, references = 0;
+    SahCosts costs;
+    uint32_t depth = 0;
+};
+
+uint32_t depthOf(const Bvh& bvh) {
+    std::vector<uint8_t> depths(bvh.nodes.size() / 2);
+    uint8_t deepest = 0;
+    for (size_t i = 0; i < bvh.nodes.size(); ++i) {
+        const Node& node = bvh.nodes[i];
+        if (i == 1 || node.isLeaf()) continue;
+        const auto depth = uint8_t(depths[i / 2] + 1);
+        depths[node.left() / 2] = depth;
+        deepest = std::max(deepest, depth);
+    }
+    return deepest;
+}
+
+/// How one form is stored: specialised for each.
+template <class F>
+struct FormChunks;
+
+template <>
+struct FormChunks<AabbForm> {
+    static constexpr uint32_t kCode = chunkType("aabb");
+
+    static TreeParameters parameters(const AabbForm& form) {
+        return {kCode, form.bvh().nodes.size(), form.primitives().size(), {}, depthOf(form.bvh())};
+    }
+    static void write(ContainerWriter& writer, const AabbForm& form) {
+        writeArrayChunk(writer, kNodesType, form.bvh().nodes);
+        writeArrayChunk(writer, kPrimitivesType, form.bvh().primitives);
+    }
+    static AabbForm read(ChunkSequence& chunks, const TreeParameters& parameters, const Scene& scene) {
+        Bvh bvh;
+        bvh.nodes = chunks.expectArray<Node>(kNodesType, parameters.nodeSlots);
+        bvh.primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
+        Validation validation = validate(bvh, uint32_t(scene.triangles.size()), triangleBounds(scene), 1);
+        if (!validation.findings.empty()) {
+            validation.findings.front().chunk = "NODE";
+            throw FindingError(chunks.name(), validation.findings.front());
+        }
+        if (validation.depth != parameters.depth)
+            chunks.fail(FindingId::statedDepth, "the tree has depth " + std::to_string(validation.depth) +
+                                                    ", TREE states " + std::to_string(parameters.depth));
+        return AabbForm(std::move(bvh));
+    }
+};
+
+TreeParameters readParameters(ChunkSequence& chunks, uint64_t triangles) {
+    const Bytes payload = chunks.expect(kTreeType, kTreeSize);
+    ByteReader reader(payload, "chunk TREE");
+    TreeParameters p;
+    p.form = reader.u32();
+    bool zero = reader.skipZeros(4);
+    p.nodeSlots = reader.u64();
+    p.references = reader.u64();
+    p.costs.traversal = reader.f32();
+    p.costs.intersection = reader.f32();
+    p.depth = reader.u32();
+    zero &= reader.skipZeros(reader.remaining());
+    if (!zero) chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
+    if (p.references < triangles || p.references > 0xFFFFFFFF || p.nodeSlots < 2 || p.nodeSlots % 2 != 0 ||
+        p.nodeSlots > 2 * p.references || p.nodeSlots > 0xFFFFFFFE || p.depth > kMaxDepth)
+        chunks.fail(FindingId::treeCounts, std::to_string(p.nodeSlots) + " node slots and " +
+                                               std::to_string(p.references) + " references of depth " +
+                                               std::to_string(p.depth) + " are no tree over " +
+                                               std::to_string(triangles) + " triangles");
+    for (const float cost : {p.costs.traversal, p.costs.intersection})
+        if (!std::isfinite(cost) || std::signbit(cost))
+            chunks.fail(FindingId::treeCosts, "a SAH cost is negative or not finite");
+    return p;
+}
+
+/// Reads the form that `parameters` names, out of the list of EncodedBvh.
+template <size_t I = 0>
+EncodedBvh readForm(ChunkSequence& chunks, const TreeParameters& parameters, const Scene& scene) {
+    if constexpr (I == std::variant_size_v<EncodedBvh>) {
+        chunks.fail(FindingId::unknownForm,
+                    "unknown form '" + chunkTypeName(parameters.form) + "': use a newer bvhx");
+    } else {
+        using Chunks = FormChunks<std::variant_alternative_t<I, EncodedBvh>>;
+        if (Chunks::kCode == parameters.form) return Chunks::read(chunks, parameters, scene);
+        return readForm<I + 1>(chunks, parameters, scene);
+    }
+}
+
+}  // namespace
+
+void writeTree(ContainerWriter& writer, const EncodedBvh& bvh, const SahCosts& costs) {
+    std::visit(
+        [&](const auto& form) {
+            using Chunks = FormChunks<std::decay_t<decltype(form)>>;
+            const TreeParameters p = Chunks::parameters(form);
+            ByteWriter bytes;
+            bytes.u32(p.form);
+            bytes.zeros(4);
+            bytes.u64(p.nodeSlots);
+            bytes.u64(p.references);
+            bytes.f32(costs.traversal);
+            bytes.f32(costs.intersection);
+            bytes.u32(p.depth);
+            bytes.zeros(kTreeSize - bytes.bytes().size());
+            writeChunk(writer, kTreeType, bytes.bytes());
+            Chunks::write(writer, form);
+        },
+        bvh);
+}
+
+StoredTree readTree(ChunkSequence& chunks, const Scene& scene) {
+    const TreeParameters parameters = readParameters(chunks, scene.triangles.size());
+    return {readForm(chunks, parameters, scene), parameters.costs};
+}
+
+}  // namespace bvhio

@@ -1,0 +1,18 @@
+// The chunks of a tree: its parameters (format-spec/chunks.md 7), then those of its form (the form's page).
+#pragma once
+
+#include "file/chunks.h"
+
+namespace bvhio {
+
+void writeTree(ContainerWriter& writer, const EncodedBvh& bvh, const SahCosts& costs);
+
+struct StoredTree {
+    EncodedBvh bvh;
+    SahCosts costs;
+};
+
+/// Reads a tree over the scene's triangles; throws FindingError unless it is valid.
+StoredTree readTree(ChunkSequence& chunks, const Scene& scene);
+
+}  // namespace bvhio

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "core/bytes.h"
+#include "core/hash.h"
 #include "file/container.h"
 #include "file/container_format.h"
 #include "file/digest.h"
@@ -10,7 +11,7 @@ namespace bvhio {
 namespace {
 
 uint64_t checksumOf(const Bytes& header) {
-    return xxh3(std::span<const std::byte>(header).first(kCheckedSize));
+    return hash64(std::span<const std::byte>(header).first(kCheckedSize));
 }
 
 bool isTypeByte(unsigned char c) {

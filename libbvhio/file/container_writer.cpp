@@ -2,6 +2,7 @@
 #include <ostream>
 
 #include "core/bytes.h"
+#include "core/hash.h"
 #include "file/container.h"
 #include "file/container_format.h"
 #include "file/digest.h"
@@ -22,7 +23,7 @@ void ContentHash::add(const ChunkHeader& header, uint64_t rawDigest) {
 }
 
 uint64_t ContentHash::value() const {
-    return xxh3(std::as_bytes(std::span(records_)));
+    return hash64(std::as_bytes(std::span(records_)));
 }
 
 ContainerWriter::ContainerWriter(std::ostream& out, const Codec& codec, int level)
@@ -39,7 +40,7 @@ ContainerWriter::ContainerWriter(std::ostream& out, const Codec& codec, int leve
     header.u16(kFormatMajor);  // the smallest reader: nothing here is newer than 1.0
     header.u16(0);
     header.zeros(kCheckedSize - header.bytes().size());
-    header.u64(xxh3(header.bytes()));
+    header.u64(hash64(header.bytes()));
     put(header.bytes());
 }
 
@@ -64,7 +65,7 @@ void ContainerWriter::writeChunk(uint32_t type, uint32_t flags, std::span<const 
     header.u64(stored.size());
     header.u64(encoded ? digest(stored) : rawDigest);
     header.zeros(16);
-    header.u64(xxh3(header.bytes()));
+    header.u64(hash64(header.bytes()));
     put(header.bytes());
     put(stored);
     static constexpr std::array<std::byte, 64> kZeros{};

@@ -1,4 +1,4 @@
-// XXH3-64 checksums, and the digest of large byte strings (format-spec/container.md 4).
+// The digest of large byte strings (format-spec/container.md 4).
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,6 @@ namespace bvhio {
 
 /// Payloads are hashed, and compressed, in blocks of this many bytes.
 inline constexpr size_t kBlockSize = size_t(1) << 20;
-
-/// XXH3-64 with seed 0.
-uint64_t xxh3(std::span<const std::byte> bytes);
 
 /// XXH3-64 of the block hashes; uses all threads.
 uint64_t digest(std::span<const std::byte> bytes);

@@ -52,7 +52,7 @@ struct FormChunks<AabbForm> {
         Bvh bvh;
         bvh.nodes = chunks.expectArray<Node>(kNodesType, parameters.nodeSlots);
         bvh.primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
-        Validation validation = validate(bvh, uint32_t(scene.triangles.size()), triangleBounds(scene), 1);
+        Validation validation = validate(bvh, uint32_t(scene.triangles.size()), boundsOfTriangles(scene), 1);
         if (!validation.findings.empty()) {
             validation.findings.front().chunk = "NODE";
             throw FindingError(chunks.name(), validation.findings.front());

@@ -176,7 +176,7 @@ std::vector<Finding> checkScene(const Scene& scene, size_t maxPerId) {
     return findings;
 }
 
-PrimitiveBounds triangleBounds(const Scene& scene) {
+PrimitiveBounds boundsOfTriangles(const Scene& scene) {
     return [&scene](std::span<const uint32_t> triangles) {
         Aabb box = Aabb::empty();
         for (const uint32_t t : triangles) box.extend(bounds(scene.triangle(t)));

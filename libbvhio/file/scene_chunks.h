@@ -16,6 +16,6 @@ Scene readScene(ChunkSequence& chunks);
 std::vector<Finding> checkScene(const Scene& scene, size_t maxPerId);
 
 /// The boxes of the scene's triangles, for `validate` and `refit`. The scene must outlive it.
-PrimitiveBounds triangleBounds(const Scene& scene);
+PrimitiveBounds boundsOfTriangles(const Scene& scene);
 
 }  // namespace bvhio

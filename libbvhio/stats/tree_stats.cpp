@@ -1,5 +1,6 @@
 #include "stats/tree_stats.h"
 
+#include <charconv>
 #include <string>
 
 namespace bvhio {
@@ -27,6 +28,15 @@ Report histogramReport(const std::vector<uint64_t>& histogram) {
     for (size_t value = 0; value < histogram.size(); ++value)
         if (histogram[value] > 0) report[std::to_string(value)] = histogram[value];
     return report;
+}
+
+/// The double that is written like the float: 1.2, not 1.2000000476837158.
+double asWritten(float value) {
+    char digits[32];
+    const char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    double result = 0;
+    std::from_chars(digits, end, result);
+    return result;
 }
 
 }  // namespace
@@ -75,8 +85,8 @@ void addTo(Report& report, const TreeStats& stats) {
     report["max_depth"] = stats.maxDepth;
     report["average_leaf_depth"] = stats.averageLeafDepth;
     report["sah_cost"] = stats.sahCost;
-    report["traversal_cost"] = stats.costs.traversal;
-    report["intersection_cost"] = stats.costs.intersection;
+    report["traversal_cost"] = asWritten(stats.costs.traversal);
+    report["intersection_cost"] = asWritten(stats.costs.intersection);
     report["expected"] = {{"inner_nodes", stats.expectedInnerNodes},
                           {"leaves", stats.expectedLeaves},
                           {"triangles", stats.expectedTriangles}};

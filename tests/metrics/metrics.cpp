@@ -1,0 +1,52 @@
+// Prints metrics.csv: numbers of every builder's tree over every test scene that are the same on any machine.
+// A change of code that moves one shows in the review of that file.
+#include <cstdio>
+
+#include "build/builders.h"
+#include "common/test_scenes.h"
+#include "stats/hashes.h"
+#include "stats/size_stats.h"
+#include "stats/stats_report.h"
+#include "stats/tree_stats.h"
+#include "trace/ray_sets.h"
+#include "trace/trace.h"
+
+namespace bvhio {
+namespace {
+
+void printRow(const test::TestScene& row, const Builder& builder) {
+    const Scene scene = row.make();
+    const Bvh bvh = builder.function(scene, {});
+    const EncodedBvh encoded = AabbForm::encode(bvh);
+    const TreeStats tree = treeStats(bvh, {});
+
+    const Tracer tracer(scene, encoded, TriangleSource::indexed);
+    const ClosestHits closestHits = [&](std::span<const Ray> rays) {
+        std::vector<Hit> hits(rays.size());
+        tracer.closestHits(rays, hits);
+        return hits;
+    };
+    RaySetOptions options;
+    options.count = 4096;
+    const RaySet raySet = makeRaySet("random", scene, options, closestHits);
+    const TraversalCounts counts = tracer.measure(raySet.rays, Query::closest).counts;
+
+    // Six digits: sums in double are of a fixed order, so even the last bits repeat, but nobody wants to
+    // review them.
+    std::printf("%s,%s,%zu,%zu,%zu,%u,%.6g,%.6g,%.6g,%zu,%zu,%.6g,%.6g,%.6g,%s\n", row.name,
+                builder.name.data(), scene.triangles.size(), size_t(tree.nodes), size_t(tree.leaves),
+                tree.maxDepth, tree.sahCost, epo(scene, bvh, {}).value, tree.childOverlap,
+                size_t(sizeStats(scene, encoded).nodes), size_t(counts.hits), counts.nc(), counts.lc(),
+                counts.tc(), hashText(boundsHash(bvh)).c_str());
+}
+
+}  // namespace
+}  // namespace bvhio
+
+int main() {
+    std::puts(
+        "scene,builder,triangles,nodes,leaves,max_depth,sah_cost,epo,child_overlap,node_bytes,hits,NC,LC,TC,"
+        "bounds_hash");
+    for (const bvhio::test::TestScene& row : bvhio::test::testScenes())
+        for (const bvhio::Builder& builder : bvhio::builders()) bvhio::printRow(row, builder);
+}

@@ -35,9 +35,9 @@ Vec3d background(double down) {
 
 Vec3d shade(const Scene& scene, const Ray& ray, const Hit& hit, const CameraFrame& frame, double open) {
     const Vec3d normal = surfacePoint(scene, ray, hit).normal;
-    const Vec3d lamp = normalize(Vec3d(ray.direction) * -1 + frame.up * 0.5 - frame.right * 0.4);
+    const Vec3d lamp = normalize(Vec3d(ray.direction) * -1 + frame.up * 0.35 - frame.right * 0.35);
     const double direct = std::max(0.0, dot(normal, lamp));
-    const double sky = 0.65 + 0.35 * dot(normal, frame.up);
+    const double sky = 0.8 + 0.2 * dot(normal, frame.up);
     return colorOf(scene, hit.primitive) * (0.85 * direct * (0.4 + 0.6 * open) + 0.55 * sky * open);
 }
 

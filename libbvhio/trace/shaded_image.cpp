@@ -41,26 +41,72 @@ Vec3d shade(const Scene& scene, const Ray& ray, const Hit& hit, const CameraFram
     return colorOf(scene, hit.primitive) * (0.85 * direct * (0.4 + 0.6 * open) + 0.55 * sky * open);
 }
 
-/// How open to the sky each of the hits is that `seen` lists, 0 to 1. What blocks from afar darkens less, so
-/// that corners are soft.
-std::vector<double> openness(const Scene& scene, std::span<const Ray> rays, std::span<const Hit> hits,
-                             std::span<const size_t> seen, float reach, uint64_t firstStream,
+/// Rows of points that are traced at a time, and which of them hit something.
+struct Band {
+    uint32_t width, top;
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    std::vector<size_t> seen;
+};
+
+/// Four cosine-weighted directions at one height over the surface, a quarter turn apart. The points of a
+/// pixel share the heights out among them, so that the sixteen rays of a pixel cover the hemisphere evenly:
+/// much less noise than sixteen at random.
+std::array<Vec3d, kAmbientRays> ambientDirections(Vec3d normal, uint32_t share, Random& random) {
+    const double squared = (share + double(random.uniform())) / (kSide * kSide);  // of the sine to the normal
+    Vec3d across;
+    do across = cross(normal, cosineDirection(normal, random));
+    while (dot(across, across) < 1e-12);
+    across = normalize(across) * std::sqrt(squared);
+    const Vec3d along = cross(normal, across), up = normal * std::sqrt(1 - squared);
+    return {up + across, up + along, up - across, up - along};
+}
+
+/// How open to the sky each of the band's hits is, 0 to 1. What blocks from afar darkens less, so that
+/// corners are soft.
+std::vector<double> openness(const Scene& scene, const Band& band, float reach,
                              const ClosestHits& closestHits) {
-    std::vector<Ray> ambient(seen.size() * kAmbientRays);
-    parallelChunks(seen.size(), kGrain, [&](size_t begin, size_t end) {
+    std::vector<Ray> ambient(band.seen.size() * kAmbientRays);
+    parallelChunks(band.seen.size(), kGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            const SurfacePoint point = surfacePoint(scene, rays[seen[i]], hits[seen[i]]);
-            Random random = randomStream(1, firstStream + seen[i]);
+            const size_t at = band.seen[i], x = at % band.width, y = band.top + at / band.width;
+            const SurfacePoint point = surfacePoint(scene, band.rays[at], band.hits[at]);
+            Random random = randomStream(1, y * band.width + x);
+            const auto share = uint32_t(y % kSide * kSide + x % kSide);
+            const auto directions = ambientDirections(point.normal, share, random);
             for (uint32_t k = 0; k < kAmbientRays; ++k)
-                ambient[i * kAmbientRays + k] = {point.origin, 0, Vec3(cosineDirection(point.normal, random)),
-                                                 reach};
+                ambient[i * kAmbientRays + k] = {point.origin, 0, Vec3(directions[k]), reach};
         }
     });
     const std::vector<Hit> blocked = closestHits(ambient);
-    std::vector<double> open(seen.size(), 0.0);
+    std::vector<double> open(band.seen.size(), 0.0);
     for (size_t i = 0; i < blocked.size(); ++i)
         open[i / kAmbientRays] += (blocked[i].isMiss() ? 1 : double(blocked[i].t) / reach) / kAmbientRays;
     return open;
+}
+
+/// The light that each point of a band sends to the eye.
+std::vector<Vec3d> bandLight(const Scene& scene, const PrimaryRays& make, const CameraFrame& frame,
+                             float reach, uint32_t width, uint32_t height, uint32_t top, uint32_t rows,
+                             const ClosestHits& closestHits) {
+    Band band{width, top, std::vector<Ray>(size_t(rows) * width), {}, {}};
+    std::vector<Vec3d> light(band.rays.size());
+    for (size_t i = 0; i < band.rays.size(); ++i) {
+        const uint32_t y = top + uint32_t(i / width);
+        band.rays[i] = make.ray(uint32_t(i % width), y);
+        light[i] = background(double(y) / height);
+    }
+    band.hits = closestHits(band.rays);
+    for (size_t i = 0; i < band.hits.size(); ++i)
+        if (!band.hits[i].isMiss()) band.seen.push_back(i);
+    const std::vector<double> open = openness(scene, band, reach, closestHits);
+    parallelChunks(band.seen.size(), kGrain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const size_t at = band.seen[i];
+            light[at] = shade(scene, band.rays[at], band.hits[at], frame, open[i]);
+        }
+    });
+    return light;
 }
 
 }  // namespace
@@ -76,22 +122,7 @@ Image shadedImage(const Scene& scene, const Camera& camera, Resolution resolutio
     Image image(resolution.width, resolution.height);
     for (uint32_t top = 0; top < height; top += bandRows) {
         const uint32_t rows = std::min(bandRows, height - top);
-        std::vector<Ray> rays(size_t(rows) * width);
-        std::vector<Vec3d> light(rays.size());
-        for (size_t i = 0; i < rays.size(); ++i) {
-            const uint32_t y = top + uint32_t(i / width);
-            rays[i] = make.ray(uint32_t(i % width), y);
-            light[i] = background(double(y) / height);
-        }
-        const std::vector<Hit> hits = closestHits(rays);
-        std::vector<size_t> seen;
-        for (size_t i = 0; i < hits.size(); ++i)
-            if (!hits[i].isMiss()) seen.push_back(i);
-        const auto open = openness(scene, rays, hits, seen, reach, uint64_t(top) * width, closestHits);
-        parallelChunks(seen.size(), kGrain, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i)
-                light[seen[i]] = shade(scene, rays[seen[i]], hits[seen[i]], frame, open[i]);
-        });
+        const auto light = bandLight(scene, make, frame, reach, width, height, top, rows, closestHits);
         for (uint32_t y = 0; y < rows / kSide; ++y)
             for (uint32_t x = 0; x < resolution.width; ++x) {
                 Vec3d sum;

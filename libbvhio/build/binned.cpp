@@ -1,12 +1,15 @@
 // Binned SAH (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies"): centroids fall
 // into equal bins along each axis, and the best plane between bins, by the SAH, splits the node. Departures:
-// every axis is binned in one pass, and the widest nodes by all threads in chunks; partitions keep order, so
-// that the result does not depend on the chunks; ranges of a few primitives are solved exactly (small_tree);
-// leaves are decided bottom-up.
+// the bins span the node's box rather than its centroids' box, which spares a pass and costs no quality; they
+// span the centroids' when all centroids share a bin. Every axis is binned in one pass, and the widest nodes
+// by all threads in chunks; partitions keep order, so that the result does not depend on the chunks; ranges
+// of a few primitives are solved exactly (small_tree); leaves are decided bottom-up (top_down).
 
 #include "build/binned.h"
 
+#include <algorithm>
 #include <cstring>
+#include <string>
 
 #include "build/top_down.h"
 
@@ -22,242 +25,295 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Four = hn::FixedTag<float, 4>;
+using FourU = hn::FixedTag<uint32_t, 4>;
 using FourV = hn::Vec<Four>;
 
-constexpr uint32_t kGrain = 1 << 13;  // references a task bins or moves at a time
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr uint32_t kGrain = 1 << 13;  // references that a task bins or moves at a time
+constexpr uint32_t kTwoSets = 512;    // references from which two sets of bins pay
+constexpr uint32_t kDefaultBins = 16;
 
-/// Maps doubled centroids to bins: bin = round((centroid - origin) * scale - 0.5), exactly the same wherever
-/// it is computed. Adding 2^23 - 0.5 rounds to an integer in the low bits of a float.
+/// A Box in registers.
+#if HWY_MAX_BYTES >= 32
+struct BoxV {
+    using Eight = hn::FixedTag<float, 8>;
+    hn::Vec<Eight> lanes;
+
+    static HWY_INLINE BoxV load(const float* p) { return {hn::Load(Eight(), p)}; }
+    static HWY_INLINE BoxV empty() { return {hn::Set(Eight(), -kInfinity)}; }
+    HWY_INLINE void store(float* p) const { hn::Store(lanes, Eight(), p); }
+    HWY_INLINE FourV low() const { return hn::LowerHalf(Four(), lanes); }
+    HWY_INLINE FourV high() const { return hn::UpperHalf(Four(), lanes); }
+    friend HWY_INLINE BoxV unite(BoxV a, BoxV b) { return {hn::Max(a.lanes, b.lanes)}; }
+};
+#else
+struct BoxV {
+    FourV lows, highs;
+
+    static HWY_INLINE BoxV load(const float* p) { return {hn::Load(Four(), p), hn::Load(Four(), p + 4)}; }
+    static HWY_INLINE BoxV empty() { return {hn::Set(Four(), -kInfinity), hn::Set(Four(), -kInfinity)}; }
+    HWY_INLINE void store(float* p) const {
+        hn::Store(lows, Four(), p);
+        hn::Store(highs, Four(), p + 4);
+    }
+    HWY_INLINE FourV low() const { return lows; }
+    HWY_INLINE FourV high() const { return highs; }
+    friend HWY_INLINE BoxV unite(BoxV a, BoxV b) {
+        return {hn::Max(a.lows, b.lows), hn::Max(a.highs, b.highs)};
+    }
+};
+#endif
+
+/// Maps doubled centroids to bins: bin = round((centroid - origin) * scale - 0.5), by the same operations
+/// wherever it is computed. Adding 2^23 - 0.5 leaves the bin in the low bits of the float.
 struct Grid {
-    float origin[4], scale[4];
+    alignas(16) float origin[4];
+    alignas(16) float scale[4];
     static constexpr float kRound = 8388607.5f, kZero = 8388608.0f;
+
+    /// Divides `span`, which contains all doubled centroids; an axis on which it is flat has all in bin 0.
+    Grid(const Box& span, float factor, uint32_t bins) {
+        for (int axis = 0; axis < 4; ++axis) {
+            const float extent = axis < 3 ? span.extent(axis) * factor : 0;
+            origin[axis] = axis < 3 ? 0 - span.negatedMin[axis] * factor : 0;
+            // A little less than all bins, so that rounding cannot reach the one after the last.
+            scale[axis] = extent > 0x1p-100f ? float(bins) * 0.9999f / extent : 0;
+        }
+    }
 };
 
-/// What falls into each bin: 8 floats of a Box and a count per bin, axis by axis.
+/// What falls into each bin, axis by axis: the boxes' union, in Box's order, and how many they are.
 struct Bins {
-    alignas(32) float boxes[3 * kMaxBins][8];
+    alignas(64) float boxes[3 * kMaxBins][8];
     uint32_t counts[3 * kMaxBins];
 };
 
+/// References whose bin on `axis` is at most `lastLeft` go left.
 struct Split {
-    float cost = std::numeric_limits<float>::infinity();
+    float cost = kInfinity;
     int axis = -1;
-    uint32_t lastLeft = 0;  // the last bin of the left side
+    uint32_t lastLeft = 0;
 };
-
-/// Three lanes of a reference's or box's halves; the fourth, an integer perhaps, would be slow to compute
-/// with as a denormal.
-HWY_INLINE FourV three(const float* p) {
-    const Four d;
-    return hn::IfThenElseZero(hn::FirstN(d, 3), hn::Load(d, p));
-}
 
 HWY_INLINE const float* floats(const Reference* reference) {
     return reinterpret_cast<const float*>(reference);
 }
 
 void clearBins(Bins& bins, uint32_t count) {
-    const Four d;
-    const FourV none = hn::Set(d, -std::numeric_limits<float>::infinity());
-    for (uint32_t i = 0; i < 3 * count; ++i) {
-        hn::Store(none, d, bins.boxes[i]);
-        hn::Store(none, d, bins.boxes[i] + 4);
-        bins.counts[i] = 0;
-    }
-}
-
-void fillBins(const Reference* references, uint32_t count, const Grid& grid, uint32_t binCount, Bins& bins) {
-    const Four d;
-    const FourV origin = hn::Load(d, grid.origin), scale = hn::Load(d, grid.scale);
-    const FourV round = hn::Set(d, Grid::kRound), zero = hn::Set(d, Grid::kZero);
-    for (uint32_t i = 0; i < count; ++i) {
-        const float* reference = floats(references + i);
-        const FourV low = hn::Load(d, reference), high = hn::Load(d, reference + 4);
-        const FourV centroid = hn::Sub(three(reference + 4), three(reference));
-        alignas(16) uint32_t bin[4];
-        const FourV rounded = hn::Max(hn::Add(hn::Mul(hn::Sub(centroid, origin), scale), round), zero);
-        hn::Store(hn::BitCast(hn::RebindToUnsigned<Four>(), rounded), hn::RebindToUnsigned<Four>(), bin);
-        for (uint32_t axis = 0; axis < 3; ++axis) {
-            const uint32_t at = axis * binCount + (bin[axis] & 0xFF);
-            float* box = bins.boxes[at];
-            hn::Store(hn::Max(hn::Load(d, box), low), d, box);
-            hn::Store(hn::Max(hn::Load(d, box + 4), high), d, box + 4);
-            ++bins.counts[at];
-        }
-    }
+    for (uint32_t i = 0; i < 3 * count; ++i) BoxV::empty().store(bins.boxes[i]);
+    std::memset(bins.counts, 0, 3 * count * sizeof bins.counts[0]);
 }
 
 void mergeBins(const Bins& from, uint32_t count, Bins& to) {
-    const Four d;
     for (uint32_t i = 0; i < 3 * count; ++i) {
-        for (int half = 0; half < 8; half += 4)
-            hn::Store(hn::Max(hn::Load(d, from.boxes[i] + half), hn::Load(d, to.boxes[i] + half)), d,
-                      to.boxes[i] + half);
+        unite(BoxV::load(from.boxes[i]), BoxV::load(to.boxes[i])).store(to.boxes[i]);
         to.counts[i] += from.counts[i];
     }
 }
 
-HWY_INLINE float halfArea(FourV low, FourV high) {
+/// Adds references to bins. Neighbours in a mesh share bins, and each addition waits for the one before it on
+/// the same bin: so odd references may go to a second set.
+void fillBins(const Reference* references, uint32_t count, const Grid& grid, uint32_t binCount, Bins& even,
+              Bins& odd) {
     const Four d;
-    alignas(16) float e[4];
-    hn::Store(hn::Add(low, high), d, e);
-    return e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
+    const FourU du;
+    alignas(16) static constexpr uint32_t kThree[4] = {~0u, ~0u, ~0u, 0};
+    // The fourth lane holds an integer, a denormal as a float: slow to compute with.
+    const FourV three = hn::BitCast(d, hn::Load(du, kThree));
+    const FourV origin = hn::Load(d, grid.origin), scale = hn::Load(d, grid.scale);
+    const FourV round = hn::Set(d, Grid::kRound), zero = hn::Set(d, Grid::kZero);
+    const auto add = [&](const Reference* reference, Bins& bins) HWY_ATTR {
+        const BoxV box = BoxV::load(floats(reference));
+        const FourV centroid = hn::Sub(hn::And(box.high(), three), hn::And(box.low(), three));
+        const FourV bin = hn::Max(hn::Add(hn::Mul(hn::Sub(centroid, origin), scale), round), zero);
+        alignas(16) uint32_t lanes[4];
+        hn::Store(hn::BitCast(du, bin), du, lanes);
+        for (uint32_t axis = 0; axis < 3; ++axis) {
+            const uint32_t at = axis * binCount + (lanes[axis] & 0xFF);
+            unite(BoxV::load(bins.boxes[at]), box).store(bins.boxes[at]);
+            ++bins.counts[at];
+        }
+    };
+    uint32_t i = 0;
+    for (; i + 1 < count; i += 2) {
+        add(references + i, even);
+        add(references + i + 1, odd);
+    }
+    if (i < count) add(references + i, even);
 }
 
-Split bestSplit(const Bins& bins, uint32_t binCount, const Range& range) {
+void fillBins(const Reference* references, uint32_t count, const Grid& grid, uint32_t binCount, Bins& bins) {
+    clearBins(bins, binCount);
+    if (count < kTwoSets) return fillBins(references, count, grid, binCount, bins, bins);
+    Bins odd;
+    clearBins(odd, binCount);
+    fillBins(references, count, grid, binCount, bins, odd);
+    mergeBins(odd, binCount, bins);
+}
+
+/// Half areas of four boxes given by their extents, lane by lane. An empty box has infinite extents and area.
+HWY_INLINE FourV halfAreas(const float (*extents)[4]) {
     const Four d;
-    const FourV none = hn::Set(d, -std::numeric_limits<float>::infinity());
+    FourV x, y, z, unused;
+    hn::LoadInterleaved4(d, extents[0], x, y, z, unused);
+    return hn::Add(hn::Add(hn::Mul(x, y), hn::Mul(y, z)), hn::Mul(z, x));
+}
+
+/// The plane of least SAH over the axes, the first of equals; axis < 0 when all references are in one bin of
+/// each axis.
+Split bestSplit(const Bins& bins, uint32_t binCount, uint32_t count) {
+    const Four d;
+    alignas(16) float lefts[kMaxBins + 3][4],
+        rights[kMaxBins + 3][4];  // extents of both sides of the plane after bin i
+    alignas(16) float leftCounts[kMaxBins + 3];
+    const uint32_t planes = binCount - 1;
     Split best;
-    float rightCosts[kMaxBins];
     for (int axis = 0; axis < 3; ++axis) {
-        if (!(range.centroids.extent(axis) > 0)) continue;
         const float(*boxes)[8] = bins.boxes + axis * binCount;
         const uint32_t* counts = bins.counts + axis * binCount;
-        FourV low = none, high = none;
-        uint32_t count = 0;
-        for (uint32_t i = binCount - 1; i > 0; --i) {
-            low = hn::Max(low, hn::Load(d, boxes[i]));
-            high = hn::Max(high, hn::Load(d, boxes[i] + 4));
-            count += counts[i];
-            rightCosts[i] = halfArea(low, high) * float(count);
+        BoxV left = BoxV::empty(), right = BoxV::empty();
+        uint32_t leftCount = 0;
+        for (uint32_t i = 0; i < planes; ++i) {
+            left = unite(left, BoxV::load(boxes[i]));
+            right = unite(right, BoxV::load(boxes[planes - i]));
+            hn::Store(hn::Add(left.low(), left.high()), d, lefts[i]);
+            hn::Store(hn::Add(right.low(), right.high()), d, rights[planes - 1 - i]);
+            leftCount += counts[i];
+            leftCounts[i] = float(leftCount);
         }
-        low = high = none;
-        count = 0;
-        for (uint32_t i = 0; i + 1 < binCount; ++i) {
-            low = hn::Max(low, hn::Load(d, boxes[i]));
-            high = hn::Max(high, hn::Load(d, boxes[i] + 4));
-            count += counts[i];
-            if (count == 0 || count == range.count) continue;
-            const float cost = halfArea(low, high) * float(count) + rightCosts[i + 1];
-            if (cost < best.cost) best = {cost, axis, i};
+        for (uint32_t i = planes; i % 4 != 0;
+             ++i) {  // fills the last group with planes that no comparison prefers
+            hn::Store(hn::Set(d, kInfinity), d, lefts[i]);
+            hn::Store(hn::Set(d, kInfinity), d, rights[i]);
+            leftCounts[i] = 0;
         }
+        // An empty side's cost is infinity times zero: not a number, so less than nothing.
+        FourV bestCosts = hn::Set(d, kInfinity), bestPlanes = hn::Zero(d), plane = hn::Iota(d, 0);
+        for (uint32_t i = 0; i < planes; i += 4) {
+            const FourV leftCounts4 = hn::Load(d, leftCounts + i);
+            const FourV costs =
+                hn::Add(hn::Mul(halfAreas(lefts + i), leftCounts4),
+                        hn::Mul(halfAreas(rights + i), hn::Sub(hn::Set(d, float(count)), leftCounts4)));
+            const auto better = hn::Lt(costs, bestCosts);
+            bestCosts = hn::IfThenElse(better, costs, bestCosts);
+            bestPlanes = hn::IfThenElse(better, plane, bestPlanes);
+            plane = hn::Add(plane, hn::Set(d, 4));
+        }
+        alignas(16) float laneCosts[4], lanePlanes[4];
+        hn::Store(bestCosts, d, laneCosts);
+        hn::Store(bestPlanes, d, lanePlanes);
+        Split ofAxis;
+        for (int lane = 0; lane < 4; ++lane) {
+            const auto lanePlane = uint32_t(lanePlanes[lane]);
+            if (laneCosts[lane] < ofAxis.cost ||
+                (laneCosts[lane] == ofAxis.cost && lanePlane < ofAxis.lastLeft))
+                ofAxis = {laneCosts[lane], axis, lanePlane};
+        }
+        if (ofAxis.cost < best.cost) best = ofAxis;
     }
     return best;
 }
 
-/// Copies references to the left or right side, in order, and returns the bounds of both sides' centroids.
+/// Copies references to the side where they belong, in order.
 void partition(const Reference* references, uint32_t count, const Grid& grid, const Split& split,
-               Reference* leftTarget, Reference* rightTarget, Box& leftCentroids, Box& rightCentroids) {
-    const Four d;
+               Reference* left, Reference* right) {
     const int axis = split.axis;
     const float origin = grid.origin[axis], scale = grid.scale[axis],
                 limit = Grid::kZero + float(split.lastLeft);
-    FourV bounds[2][2];
-    for (auto& side : bounds) side[0] = side[1] = hn::Set(d, -std::numeric_limits<float>::infinity());
     for (uint32_t i = 0; i < count; ++i) {
         const Reference& reference = references[i];
         const bool isRight = (reference.centroid(axis) - origin) * scale + Grid::kRound > limit;
-        Reference*& target = isRight ? rightTarget : leftTarget;
-        *target++ = reference;
-        const FourV low = three(floats(&reference)), high = three(floats(&reference) + 4);
-        const FourV centroid = hn::Sub(high, low);
-        FourV* side = bounds[isRight];
-        side[0] = hn::Max(side[0], hn::Neg(centroid));
-        side[1] = hn::Max(side[1], centroid);
+        // No branch: which side is next is anyone's guess.
+        Reference* const to = isRight ? right : left;
+        BoxV::load(floats(&reference)).store(reinterpret_cast<float*>(to));
+        right += isRight;
+        left += !isRight;
     }
-    hn::Store(bounds[0][0], d, leftCentroids.negatedMin);
-    hn::Store(bounds[0][1], d, leftCentroids.max);
-    hn::Store(bounds[1][0], d, rightCentroids.negatedMin);
-    hn::Store(bounds[1][1], d, rightCentroids.max);
 }
 
 class BinnedSplitter {
   public:
     explicit BinnedSplitter(uint32_t bins) : bins_(bins) {}
 
-    bool split(ReferenceArrays& references, const Range& range, Range& left, Range& right,
+    bool split(const ReferenceArrays& references, const Range& range, Range& left, Range& right,
                bool parallel) const {
         // Boxes without area, on a line or a point, have no SAH to go by.
         if (!(range.bounds.halfArea() > std::numeric_limits<float>::min())) return false;
-        Grid grid{};
-        bool flat = true;
-        for (int axis = 0; axis < 3; ++axis) {
-            const float extent = range.centroids.extent(axis);
-            grid.origin[axis] = 0 - range.centroids.negatedMin[axis];
-            // A little less than all bins, so that rounding cannot reach the one after the last.
-            if (extent > std::numeric_limits<float>::min()) {
-                grid.scale[axis] = float(bins_) * 0.9999f / extent;
-                flat = false;
-            }
-        }
-        if (flat) return false;
-        const Reference* source = references.at(range);
-        Reference* target = references.opposite(range);
-
-        if (!parallel) {
-            Bins bins;
-            clearBins(bins, bins_);
-            fillBins(source, range.count, grid, bins_, bins);
-            const Split best = bestSplit(bins, bins_, range);
-            if (best.axis < 0) return false;
-            finish(bins, best, left, right);
-            partition(source, range.count, grid, best, target, target + left.count, left.centroids,
-                      right.centroids);
-            return true;
-        }
-
-        const uint32_t chunks = (range.count + kGrain - 1) / kGrain;
-        std::vector<Bins> chunkBins(chunks);
-        parallelChunks(range.count, kGrain, [&](size_t begin, size_t end) {
-            Bins& bins = chunkBins[begin / kGrain];
-            clearBins(bins, bins_);
-            fillBins(source + begin, uint32_t(end - begin), grid, bins_, bins);
-        });
-        Bins bins;
-        clearBins(bins, bins_);
-        for (const Bins& chunk : chunkBins) mergeBins(chunk, bins_, bins);
-        const Split best = bestSplit(bins, bins_, range);
-        if (best.axis < 0) return false;
-        finish(bins, best, left, right);
-
-        struct Chunk {
-            uint32_t left, right;  // where its first references go
-            Box leftCentroids, rightCentroids;
+        const auto splitOver = [&](const Grid& grid) {
+            return parallel ? splitInChunks(references, range, grid, left, right)
+                            : splitAlone(references, range, grid, left, right);
         };
-        std::vector<Chunk> moves(chunks);
-        uint32_t toLeft = 0, toRight = left.count;
-        for (uint32_t i = 0; i < chunks; ++i) {
-            moves[i].left = toLeft;
-            moves[i].right = toRight;
-            const uint32_t size = std::min(kGrain, range.count - i * kGrain);
-            uint32_t lefts = 0;
-            for (uint32_t b = 0; b <= best.lastLeft; ++b) lefts += chunkBins[i].counts[best.axis * bins_ + b];
-            toLeft += lefts;
-            toRight += size - lefts;
-        }
-        parallelChunks(range.count, kGrain, [&](size_t begin, size_t end) {
-            Chunk& chunk = moves[begin / kGrain];
-            partition(source + begin, uint32_t(end - begin), grid, best, target + chunk.left,
-                      target + chunk.right, chunk.leftCentroids, chunk.rightCentroids);
-        });
-        left.centroids = right.centroids = Box::empty();
-        for (const Chunk& chunk : moves) {
-            left.centroids.extend(chunk.leftCentroids);
-            right.centroids.extend(chunk.rightCentroids);
-        }
-        return true;
+        return splitOver(Grid(range.bounds, 2, bins_)) ||
+               splitOver(Grid(centroidBounds(references.at(range), range.count), 1, bins_));
     }
 
   private:
-    /// Bounds and counts of both sides, from the bins.
-    void finish(const Bins& bins, const Split& split, Range& left, Range& right) const {
-        left.bounds = right.bounds = Box::empty();
-        left.count = right.count = 0;
-        for (uint32_t i = 0; i < bins_; ++i) {
-            Range& side = i <= split.lastLeft ? left : right;
-            const uint32_t at = split.axis * bins_ + i;
-            Box box;
-            std::memcpy(&box, bins.boxes[at], sizeof box);
-            side.bounds.extend(box);
-            side.count += bins.counts[at];
+    bool splitAlone(const ReferenceArrays& references, const Range& range, const Grid& grid, Range& left,
+                    Range& right) const {
+        const Reference* source = references.at(range);
+        Reference* target = references.opposite(range);
+        Bins bins;
+        fillBins(source, range.count, grid, bins_, bins);
+        const Split best = bestSplit(bins, bins_, range.count);
+        if (best.axis < 0) return false;
+        describeSides(bins, best, left, right);
+        partition(source, range.count, grid, best, target, target + left.count);
+        return true;
+    }
+
+    bool splitInChunks(const ReferenceArrays& references, const Range& range, const Grid& grid, Range& left,
+                       Range& right) const {
+        const Reference* source = references.at(range);
+        Reference* target = references.opposite(range);
+        Buffer<Bins> chunks((range.count + kGrain - 1) / kGrain);
+        parallelChunks(range.count, kGrain, [&](size_t begin, size_t end) {
+            fillBins(source + begin, uint32_t(end - begin), grid, bins_, chunks[begin / kGrain]);
+        });
+        Bins bins;
+        clearBins(bins, bins_);
+        for (size_t i = 0; i < chunks.size(); ++i) mergeBins(chunks[i], bins_, bins);
+        const Split best = bestSplit(bins, bins_, range.count);
+        if (best.axis < 0) return false;
+        describeSides(bins, best, left, right);
+
+        // How many go left before each chunk: the chunks' bins know.
+        std::vector<uint32_t> leftsBefore(chunks.size());
+        uint32_t lefts = 0;
+        for (size_t i = 0; i < chunks.size(); ++i) {
+            leftsBefore[i] = lefts;
+            const uint32_t* counts = chunks[i].counts + best.axis * bins_;
+            for (uint32_t bin = 0; bin <= best.lastLeft; ++bin) lefts += counts[bin];
         }
+        parallelChunks(range.count, kGrain, [&](size_t begin, size_t end) {
+            const uint32_t before = leftsBefore[begin / kGrain];
+            partition(source + begin, uint32_t(end - begin), grid, best, target + before,
+                      target + left.count + (begin - before));
+        });
+        return true;
+    }
+
+    /// Bounds and counts of both sides, from the bins.
+    void describeSides(const Bins& bins, const Split& split, Range& left, Range& right) const {
+        const float(*boxes)[8] = bins.boxes + split.axis * bins_;
+        const uint32_t* counts = bins.counts + split.axis * bins_;
+        const auto describe = [&](uint32_t begin, uint32_t end, Range& side) HWY_ATTR {
+            BoxV bounds = BoxV::empty();
+            side.count = 0;
+            for (uint32_t i = begin; i < end; ++i) {
+                bounds = unite(bounds, BoxV::load(boxes[i]));
+                side.count += counts[i];
+            }
+            bounds.store(side.bounds.negatedMin);
+        };
+        describe(0, split.lastLeft + 1, left);
+        describe(split.lastLeft + 1, bins_, right);
     }
 
     uint32_t bins_;
 };
 
 Bvh build(const Scene& scene, const BuildOptions& options) {
-    const BinnedSplitter splitter(options.bins == 0 ? 16 : options.bins);
+    const BinnedSplitter splitter(options.bins == 0 ? kDefaultBins : options.bins);
     return TopDownBuild<BinnedSplitter>(scene, options, splitter).build();
 }
 

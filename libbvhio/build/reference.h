@@ -56,10 +56,13 @@ struct alignas(32) Reference {
 };
 static_assert(sizeof(Reference) == sizeof(Box));
 
-/// Makes the references of all triangles, in order, with the bounds of their boxes and of their doubled
-/// centroids. Returns true when coordinates are so large or small that areas could leave the range of a
-/// float: the boxes are then scaled by a power of two, and the tree's boxes need refitting.
-bool makeReferences(const Scene& scene, Buffer<Reference>& references, Box& bounds, Box& centroids);
+/// The bounds of the doubled centroids of a run of references.
+Box centroidBounds(const Reference* references, size_t count);
+
+/// Makes the references of all triangles, in order, and their bounds. Returns true when coordinates are so
+/// large or small that areas could leave the range of a float: the boxes are then scaled by a power of two,
+/// and the tree's boxes need refitting.
+bool makeReferences(const Scene& scene, Buffer<Reference>& references, Box& bounds);
 
 /// The nodes of `bvh` with boxes recomputed from the triangles.
 SharedArray<Node> refitted(const Scene& scene, const Bvh& bvh);

@@ -18,9 +18,9 @@ struct LeafRule {
 inline constexpr uint32_t kSmallTree = 4;
 
 /// Writes the tree of least SAH cost over 1 to kSmallTree references: its root to `node`, the pairs below to
-/// `nodes` from `next` on (which it advances), depth first, and the primitives of its leaves to
-/// primitives[begin, begin + count). Returns its cost.
-float buildSmallTree(const Reference* references, uint32_t count, uint32_t begin, const LeafRule& rule,
-                     Node& node, Node* nodes, uint32_t& next, uint32_t* primitives);
+/// `nodes` from `nodeCount` on (which it advances), depth first, and the primitives of its leaves to
+/// `primitives` from `begin` on. Returns its cost.
+float buildSmallTree(const Reference* references, uint32_t count, const LeafRule& rule, Node& node,
+                     Node* nodes, uint32_t& nodeCount, uint32_t* primitives, uint32_t begin);
 
 }  // namespace bvhio

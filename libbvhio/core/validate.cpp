@@ -135,7 +135,7 @@ struct Validator {
             }
             mark(inLeaf[primitive], uint8_t(1));
         }
-        if (!split() && !leaf.bounds.contains(primitiveBounds(range)))
+        if (primitiveBounds && !split() && !leaf.bounds.contains(primitiveBounds(range)))
             found.add(FindingId::primitiveOutsideLeaf, i, "a triangle leaves the box of leaf " + number(i));
     }
 
@@ -278,7 +278,7 @@ struct Validator {
         checkCover(counts & 0xFFFFFFFF);
         if (findings.structural()) return;
         checkDepth();
-        if (split()) checkSplitPrimitives();
+        if (primitiveBounds && split()) checkSplitPrimitives();
     }
 };
 

@@ -48,9 +48,10 @@ std::vector<ProvenanceEntry> readProvenance(ChunkSequence& chunks) {
     return entries;
 }
 
-BvhxFile read(ByteSource& source) {
-    ContainerReader container(source);
-    ChunkSequence chunks(container);
+}  // namespace
+
+BvhxFile readContent(ContainerReader& container, std::vector<Finding>* collected) {
+    ChunkSequence chunks(container, collected);
     Scene scene = readScene(chunks);
     StoredTree tree = readTree(chunks, scene);
     std::vector<ProvenanceEntry> provenance;
@@ -59,23 +60,31 @@ BvhxFile read(ByteSource& source) {
     return {std::move(scene), std::move(tree.bvh), tree.costs, std::move(provenance), chunks.takeUnknown()};
 }
 
-}  // namespace
-
 BvhxFile readBvhx(const std::filesystem::path& path) {
-    return read(*openSource(path));
+    const auto source = openSource(path);
+    ContainerReader container(*source);
+    return readContent(container);
 }
 
 BvhxFile readBvhx(std::span<const std::byte> bytes, const std::string& name) {
-    return read(*memorySource(bytes, name));
+    const auto source = memorySource(bytes, name);
+    ContainerReader container(*source);
+    return readContent(container);
 }
 
 void writeBvhx(std::ostream& out, const BvhxFile& file, const WriteOptions& options) {
     ContainerWriter writer(out, choose(codecs(), "codec", options.codec), options.codecLevel);
-    writeScene(writer, file.scene);
-    writeTree(writer, file.bvh, file.costs);
+    const StoredScene stored = storeScene(file.scene, options);
+    writeScene(writer, stored);
+    writeTree(writer, stored.draco.empty() ? file.bvh : refitTo(file.bvh, stored.scene), file.costs);
     for (const UnknownChunk& chunk : file.unknownChunks) writer.write(chunk.type, chunk.flags, chunk.payload);
     if (!file.provenance.empty()) writeProvenance(writer, file.provenance);
     writer.finish();
+}
+
+void dropChunksThatDoNotSurvive(BvhxFile& file, Change change) {
+    const uint32_t needed = change == Change::reordered ? kSurvivesReorder : kSurvivesTopologyChange;
+    std::erase_if(file.unknownChunks, [&](const UnknownChunk& chunk) { return (chunk.flags & needed) == 0; });
 }
 
 }  // namespace bvhio

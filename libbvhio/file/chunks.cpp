@@ -53,6 +53,14 @@ const ChunkHeader& ChunkSequence::peek() {
     return *next_;
 }
 
+void ChunkSequence::judge(std::vector<Finding> findings, uint64_t payload) {
+    for (Finding& finding : findings) {
+        if (finding.offset != kNowhere) finding.offset += payload;
+        if (!collected_) throw FindingError(reader_.name(), finding);
+        collected_->push_back(std::move(finding));
+    }
+}
+
 bool ChunkSequence::nextIs(uint32_t type) {
     return peek().type == type;
 }

@@ -42,7 +42,9 @@ void writeArrayChunk(ContainerWriter& writer, uint32_t type, const SharedArray<T
 /// Reads known chunks in the order that the caller asks for, and gathers the unknown ones between them.
 class ChunkSequence {
   public:
-    explicit ChunkSequence(ContainerReader& reader) : reader_(reader) {}
+    /// With `collected`, findings about a payload's content gather there; without, the first one is thrown.
+    explicit ChunkSequence(ContainerReader& reader, std::vector<Finding>* collected = nullptr)
+        : reader_(reader), collected_(collected) {}
 
     /// The payload of the next known chunk, which must be of this type; with `size` bytes, unless that is
     /// kAnySize.
@@ -56,7 +58,15 @@ class ChunkSequence {
     bool nextIs(uint32_t type);
     /// Throws FindingError about the chunk that was read last.
     [[noreturn]] void fail(FindingId id, const std::string& message) const { reader_.fail(id, message); }
-    const std::string& name() const { return reader_.name(); }
+    /// Takes findings about content: throws the first or collects all. `payload` is where their offsets count
+    /// from.
+    void judge(std::vector<Finding> findings, uint64_t payload);
+    /// Whether all that was read so far may be relied on: always, unless findings were collected.
+    bool sound() const { return !collected_ || collected_->empty(); }
+    /// How many findings of one kind are worth looking for.
+    size_t maxPerId() const { return collected_ ? 8 : 1; }
+    /// Where in the file the payload that was read last starts.
+    uint64_t payloadOffset() const { return reader_.lastHeader().payloadOffset(); }
     /// Hands over the unknown ancillary chunks that were passed.
     std::vector<UnknownChunk> takeUnknown() { return std::move(unknown_); }
 
@@ -66,9 +76,14 @@ class ChunkSequence {
     const ChunkHeader& peek();
 
     ContainerReader& reader_;
+    std::vector<Finding>* collected_;
     std::optional<ChunkHeader> next_;
     std::vector<uint32_t> seen_;
     std::vector<UnknownChunk> unknown_;
 };
+
+/// Reads everything behind a file's header. With `collected`, findings about content gather there, and what
+/// is returned may be used only when there are none.
+BvhxFile readContent(ContainerReader& container, std::vector<Finding>* collected = nullptr);
 
 }  // namespace bvhio

@@ -68,6 +68,8 @@ class ContainerReader {
     /// The payload of that chunk, decoded; a view into the file where it was mapped and stored with codec
     /// none.
     Bytes payload();
+    /// Reads and checks whatever is left of the container.
+    void drain();
     /// Passes over the payload without decoding it, and says whether its checksum matched. END is then not
     /// checked.
     bool skipPayload();
@@ -75,16 +77,17 @@ class ContainerReader {
     /// Throws FindingError about the chunk that was read last.
     [[noreturn]] void fail(FindingId id, const std::string& message) const;
     const std::string& name() const { return source_.name(); }
-    uint64_t bytesRead() const { return source_.position(); }
+    const ChunkHeader& lastHeader() const { return header_; }
 
   private:
     Bytes takeStored();
-    void finish();
+    void checkEnd(const Bytes& payload);
 
     ByteSource& source_;
     ChunkHeader header_;
     ContentHash hash_;
     uint64_t chunks_ = 0;
+    bool pending_ = false;  // a header was read, its payload not yet
     bool skipped_ = false;
 };
 

@@ -96,6 +96,7 @@ std::optional<ChunkHeader> ContainerReader::nextHeader() {
         failHere(FindingId::chunkType, "the chunk's type is not four letters, digits or spaces");
 
     header_ = header;
+    pending_ = true;
     if (!zero || header.flags > (kCritical | kSurvivesReorder | kSurvivesTopologyChange))
         fail(FindingId::chunkReserved, "a reserved field or flag of the chunk header is not zero");
     const Codec* codec = findCodec(header.codec);
@@ -113,6 +114,7 @@ std::optional<ChunkHeader> ContainerReader::nextHeader() {
 }
 
 Bytes ContainerReader::takeStored() {
+    pending_ = false;
     const Bytes stored = source_.take(header_.storedSize);
     if (stored.size() < header_.storedSize)
         fail(FindingId::cut, "the file ends after " + std::to_string(stored.size()) + " of the payload's " +
@@ -144,25 +146,33 @@ Bytes ContainerReader::payload() {
         raw = std::move(decoded);
     }
     if (header_.type == kEndType) {
-        ByteReader reader(raw, "END");
-        if (header_.flags != kCritical || header_.codec != 0 || header_.rawSize != kEndSize)
-            fail(FindingId::endForm,
-                 "the END chunk has other flags, another codec or another size than it must");
-        const uint64_t hash = reader.u64(), chunks = reader.u64(), fileSize = reader.u64();
-        if (!reader.skipZeros(8)) fail(FindingId::endForm, "END's reserved field is not zero");
-        if (skipped_) return raw;
-        if (chunks != chunks_ || fileSize != source_.position())
-            fail(FindingId::endTotals, "END counts " + std::to_string(chunks) + " chunks and " +
-                                           std::to_string(fileSize) + " bytes, the file has " +
-                                           std::to_string(chunks_) + " and " +
-                                           std::to_string(source_.position()));
-        if (hash != hash_.value()) fail(FindingId::contentHash, "the content hash does not match");
-        if (!source_.take(1).empty()) fail(FindingId::trailingBytes, "bytes follow the END chunk");
-        return raw;
+        checkEnd(raw);
+    } else {
+        ++chunks_;
+        hash_.add(header_, header_.codec == 0 ? storedDigest : digest(raw));
     }
-    ++chunks_;
-    hash_.add(header_, header_.codec == 0 ? storedDigest : digest(raw));
     return raw;
+}
+
+void ContainerReader::checkEnd(const Bytes& payload) {
+    if (header_.flags != kCritical || header_.codec != 0 || header_.rawSize != kEndSize)
+        fail(FindingId::endForm, "the END chunk has other flags, another codec or another size than it must");
+    ByteReader reader(payload, "chunk END");
+    const uint64_t hash = reader.u64(), chunks = reader.u64(), fileSize = reader.u64();
+    if (!reader.skipZeros(8)) fail(FindingId::endForm, "END's reserved field is not zero");
+    if (skipped_) return;
+    if (chunks != chunks_ || fileSize != source_.position())
+        fail(FindingId::endTotals, "END counts " + std::to_string(chunks) + " chunks and " +
+                                       std::to_string(fileSize) + " bytes, the file has " +
+                                       std::to_string(chunks_) + " and " +
+                                       std::to_string(source_.position()));
+    if (hash != hash_.value()) fail(FindingId::contentHash, "the content hash does not match");
+    if (!source_.take(1).empty()) fail(FindingId::trailingBytes, "bytes follow the END chunk");
+}
+
+void ContainerReader::drain() {
+    if (pending_) payload();
+    while (nextHeader()) payload();
 }
 
 }  // namespace bvhio

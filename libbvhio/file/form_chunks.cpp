@@ -1,9 +1,11 @@
 #include "file/form_chunks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
 #include "core/bytes.h"
+#include "core/refit.h"
 #include "core/validate.h"
 #include "file/scene_chunks.h"
 
@@ -51,15 +53,19 @@ struct FormChunks<AabbForm> {
     static AabbForm read(ChunkSequence& chunks, const TreeParameters& parameters, const Scene& scene) {
         Bvh bvh;
         bvh.nodes = chunks.expectArray<Node>(kNodesType, parameters.nodeSlots);
+        const uint64_t nodesOffset = chunks.payloadOffset();
         bvh.primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
-        Validation validation = validate(bvh, uint32_t(scene.triangles.size()), boundsOfTriangles(scene), 1);
-        if (!validation.findings.empty()) {
-            validation.findings.front().chunk = "NODE";
-            throw FindingError(chunks.name(), validation.findings.front());
+        Validation validation =
+            validate(bvh, uint32_t(scene.triangles.size()),
+                     chunks.sound() ? boundsOfTriangles(scene) : PrimitiveBounds{}, chunks.maxPerId());
+        for (Finding& finding : validation.findings) {
+            finding.chunk = "NODE";
+            if (finding.node != kNowhere) finding.offset = finding.node * sizeof(Node);
         }
-        if (validation.depth != parameters.depth)
+        if (validation.findings.empty() && validation.depth != parameters.depth)
             chunks.fail(FindingId::statedDepth, "the tree has depth " + std::to_string(validation.depth) +
                                                     ", TREE states " + std::to_string(parameters.depth));
+        chunks.judge(std::move(validation.findings), nodesOffset);
         return AabbForm(std::move(bvh));
     }
 };
@@ -120,6 +126,14 @@ void writeTree(ContainerWriter& writer, const EncodedBvh& bvh, const SahCosts& c
             bytes.zeros(kTreeSize - bytes.bytes().size());
             writeChunk(writer, kTreeType, bytes.bytes());
             Chunks::write(writer, form);
+        },
+        bvh);
+}
+
+EncodedBvh refitTo(const EncodedBvh& bvh, const Scene& scene) {
+    return std::visit(
+        [&](const auto& form) -> EncodedBvh {
+            return std::decay_t<decltype(form)>::encode(refit(form.decode(), boundsOfTriangles(scene)));
         },
         bvh);
 }

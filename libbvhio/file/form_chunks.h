@@ -7,6 +7,9 @@ namespace bvhio {
 
 void writeTree(ContainerWriter& writer, const EncodedBvh& bvh, const SahCosts& costs);
 
+/// The tree with its boxes fitted to the scene's vertices, which moved.
+EncodedBvh refitTo(const EncodedBvh& bvh, const Scene& scene);
+
 struct StoredTree {
     EncodedBvh bvh;
     SahCosts costs;

@@ -7,12 +7,13 @@
 #include "core/bytes.h"
 #include "core/parallel.h"
 #include "file/utf8.h"
+#include "scene/draco_mesh.h"
 
 namespace bvhio {
 namespace {
 
 constexpr size_t kSceneSize = 64;
-constexpr uint32_t kRawEncoding = 0;
+constexpr uint32_t kRawEncoding = 0, kDracoEncoding = 1;
 constexpr uint32_t kHasSourcePrimitives = 1;
 
 struct SceneParameters {
@@ -39,7 +40,7 @@ SceneParameters readParameters(ChunkSequence& chunks) {
                     std::to_string(p.vertices) + " vertices, " + std::to_string(p.triangles) +
                         " triangles, " + std::to_string(p.geometries) + " geometries, " +
                         std::to_string(p.nameBytes) + " bytes of names are out of range");
-    if (p.encoding != kRawEncoding)
+    if (p.encoding > kDracoEncoding)
         chunks.fail(FindingId::unknownGeometryEncoding,
                     "unknown geometry encoding " + std::to_string(p.encoding) + ": use a newer bvhx");
     return p;
@@ -72,8 +73,25 @@ std::vector<Geometry> readGeometries(ChunkSequence& chunks, const SceneParameter
     return geometries;
 }
 
-Finding geometryFinding(FindingId id, uint32_t chunk, const std::string& message) {
-    return {id, Finding::Severity::error, message, chunkTypeName(chunk), kNowhere, kNowhere};
+Finding geometryFinding(FindingId id, uint32_t chunk, uint64_t offset, const std::string& message) {
+    return {id, Finding::Severity::error, message, chunkTypeName(chunk), offset, kNowhere};
+}
+
+/// Reads vertices and triangles out of the Draco chunk.
+void readDraco(ChunkSequence& chunks, const SceneParameters& parameters, Scene& scene) {
+    const Bytes payload = chunks.expect(kDracoType, ChunkSequence::kAnySize);
+    DracoMesh mesh;
+    try {
+        mesh = decodeDraco(payload, "its payload");
+    } catch (const Error& error) {
+        chunks.fail(FindingId::draco, error.what());
+    }
+    if (mesh.vertices.size() != parameters.vertices || mesh.triangles.size() != parameters.triangles)
+        chunks.fail(FindingId::draco, "the payload decodes to " + std::to_string(mesh.vertices.size()) +
+                                          " vertices and " + std::to_string(mesh.triangles.size()) +
+                                          " triangles, not to SCEN's counts");
+    scene.vertices = std::move(mesh.vertices);
+    scene.triangles = std::move(mesh.triangles);
 }
 
 /// Runs bad(i) over the elements of [0, count) whose stretch `anyBad(begin, end)` says holds one, until
@@ -94,7 +112,17 @@ void findBad(size_t count, size_t maxFound, const AnyBad& anyBad, const Report& 
 
 }  // namespace
 
-void writeScene(ContainerWriter& writer, const Scene& scene) {
+StoredScene storeScene(const Scene& scene, const WriteOptions& options) {
+    if (options.geometry == GeometryEncoding::raw) return {scene, {}};
+    StoredScene stored{scene, encodeDraco(scene.vertices, scene.triangles, options.dracoPositionBits)};
+    DracoMesh mesh = decodeDraco(stored.draco, "the encoded geometry");
+    stored.scene.vertices = std::move(mesh.vertices);
+    stored.scene.triangles = std::move(mesh.triangles);
+    return stored;
+}
+
+void writeScene(ContainerWriter& writer, const StoredScene& stored) {
+    const Scene& scene = stored.scene;
     ByteWriter geometries;
     std::string names;
     for (const Geometry& geometry : scene.geometries) {
@@ -110,13 +138,17 @@ void writeScene(ContainerWriter& writer, const Scene& scene) {
     parameters.u64(scene.triangles.size());
     parameters.u64(scene.geometries.size());
     parameters.u64(names.size());
-    parameters.u32(kRawEncoding);
+    parameters.u32(stored.draco.empty() ? kRawEncoding : kDracoEncoding);
     parameters.u32(scene.sourcePrimitives.empty() ? 0 : kHasSourcePrimitives);
     parameters.zeros(kSceneSize - parameters.bytes().size());
-
     writeChunk(writer, kSceneType, parameters.bytes());
-    writeArrayChunk(writer, kVerticesType, scene.vertices);
-    writeArrayChunk(writer, kTrianglesType, scene.triangles);
+
+    if (stored.draco.empty()) {
+        writeArrayChunk(writer, kVerticesType, scene.vertices);
+        writeArrayChunk(writer, kTrianglesType, scene.triangles);
+    } else {
+        writeChunk(writer, kDracoType, stored.draco);
+    }
     writeChunk(writer, kGeometriesType, geometries.bytes());
     if (!scene.sourcePrimitives.empty())
         writeArrayChunk(writer, kSourcePrimitivesType, scene.sourcePrimitives);
@@ -125,17 +157,21 @@ void writeScene(ContainerWriter& writer, const Scene& scene) {
 Scene readScene(ChunkSequence& chunks) {
     const SceneParameters parameters = readParameters(chunks);
     Scene scene;
-    scene.vertices = chunks.expectArray<Vec3>(kVerticesType, parameters.vertices);
-    scene.triangles = chunks.expectArray<TriangleIndices>(kTrianglesType, parameters.triangles);
-    if (const auto findings = checkScene(scene, 1); !findings.empty())
-        throw FindingError(chunks.name(), findings.front());
+    if (parameters.encoding == kDracoEncoding) {
+        readDraco(chunks, parameters, scene);
+    } else {
+        scene.vertices = chunks.expectArray<Vec3>(kVerticesType, parameters.vertices);
+        chunks.judge(checkVertices(scene, chunks.maxPerId()), chunks.payloadOffset());
+        scene.triangles = chunks.expectArray<TriangleIndices>(kTrianglesType, parameters.triangles);
+        chunks.judge(checkTriangles(scene, chunks.maxPerId()), chunks.payloadOffset());
+    }
     scene.geometries = readGeometries(chunks, parameters);
     if ((parameters.flags & kHasSourcePrimitives) != 0)
         scene.sourcePrimitives = chunks.expectArray<uint32_t>(kSourcePrimitivesType, parameters.triangles);
     return scene;
 }
 
-std::vector<Finding> checkScene(const Scene& scene, size_t maxPerId) {
+std::vector<Finding> checkVertices(const Scene& scene, size_t maxPerId) {
     std::vector<Finding> findings;
     const std::span<const float> coordinates{&scene.vertices.data()->x, scene.vertices.size() * 3};
     // Over bits, so that the compiler can use vectors: the exponent of what is not finite is all ones, and -0
@@ -151,6 +187,19 @@ std::vector<Finding> checkScene(const Scene& scene, size_t maxPerId) {
         for (size_t i = begin; i < end; ++i) bad |= std::bit_cast<uint32_t>(coordinates[i]) == 0x80000000u;
         return bad;
     };
+    findBad(coordinates.size(), maxPerId, anyNotFinite, [&](size_t i) {
+        findings.push_back(geometryFinding(FindingId::vertexNotFinite, kVerticesType, i * sizeof(float),
+                                           "vertex " + std::to_string(i / 3) + " is not finite"));
+    });
+    findBad(coordinates.size(), maxPerId, anyNegativeZero, [&](size_t i) {
+        findings.push_back(geometryFinding(FindingId::negativeZero, kVerticesType, i * sizeof(float),
+                                           "a coordinate of vertex " + std::to_string(i / 3) + " is -0"));
+    });
+    return findings;
+}
+
+std::vector<Finding> checkTriangles(const Scene& scene, size_t maxPerId) {
+    std::vector<Finding> findings;
     const uint64_t vertexCount = scene.vertices.size();
     const auto anyOutOfRange = [&](size_t begin, size_t end) {
         bool bad = false;
@@ -160,16 +209,9 @@ std::vector<Finding> checkScene(const Scene& scene, size_t maxPerId) {
         }
         return bad;
     };
-    findBad(coordinates.size(), maxPerId, anyNotFinite, [&](size_t i) {
-        findings.push_back(geometryFinding(FindingId::vertexNotFinite, kVerticesType,
-                                           "vertex " + std::to_string(i / 3) + " is not finite"));
-    });
-    findBad(coordinates.size(), maxPerId, anyNegativeZero, [&](size_t i) {
-        findings.push_back(geometryFinding(FindingId::negativeZero, kVerticesType,
-                                           "a coordinate of vertex " + std::to_string(i / 3) + " is -0"));
-    });
     findBad(scene.triangles.size(), maxPerId, anyOutOfRange, [&](size_t i) {
         findings.push_back(geometryFinding(FindingId::vertexIndex, kTrianglesType,
+                                           i * sizeof(TriangleIndices),
                                            "triangle " + std::to_string(i) + " has a vertex index beyond " +
                                                std::to_string(vertexCount - 1)));
     });

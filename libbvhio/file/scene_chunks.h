@@ -7,13 +7,23 @@
 
 namespace bvhio {
 
-void writeScene(ContainerWriter& writer, const Scene& scene);
+/// A scene as a file gives it back, and its Draco data when it is stored so.
+struct StoredScene {
+    Scene scene;
+    std::vector<std::byte> draco;
+};
 
-/// Reads a scene; throws FindingError unless it keeps every promise of scene/scene.h.
+/// Encodes a scene: with Draco, vertices move to where they will be decoded; triangles and their order stay.
+StoredScene storeScene(const Scene& scene, const WriteOptions& options);
+void writeScene(ContainerWriter& writer, const StoredScene& stored);
+
+/// Reads a scene that keeps every promise of scene/scene.h; throws FindingError otherwise.
 Scene readScene(ChunkSequence& chunks);
 
-/// Checks coordinates and indices in parallel: at most `maxPerId` findings of each of the kinds 40xx.
-std::vector<Finding> checkScene(const Scene& scene, size_t maxPerId);
+/// Checks coordinates, or indices, in parallel: at most `maxPerId` findings of each kind, offsets from the
+/// array's start.
+std::vector<Finding> checkVertices(const Scene& scene, size_t maxPerId);
+std::vector<Finding> checkTriangles(const Scene& scene, size_t maxPerId);
 
 /// The boxes of the scene's triangles, for `validate` and `refit`. The scene must outlive it.
 PrimitiveBounds boundsOfTriangles(const Scene& scene);

@@ -1,0 +1,306 @@
+#!/usr/bin/python3
+"""A second reader of .bvhx files, written from the pages of format-spec alone; it shares no code with the library.
+
+Usage: bvhx_reader.py FILE...        "-" is standard input
+Prints a summary of each file, or the clause by which it must be rejected. Exit: 0 all read, 2 a file cannot be opened,
+3 a file is invalid, 5 a file is unsupported (of the last file that was not read). Draco geometry is not decoded: the checks
+that need its vertices are left out, and the summary says so.
+
+Needs the Python modules xxhash and zstandard (Debian: python3-xxhash, python3-zstandard).
+"""
+import math
+import struct
+import sys
+
+import xxhash
+import zstandard
+
+SIGNATURE = bytes.fromhex("9C 42 56 48 58 20 0D 0A 1A 0A 00 FE")
+VERSION = (1, 0)
+BLOCK = 1 << 20
+MAX_SIZE = 1 << 48
+MAX_EXPANSION = 32
+UNSUPPORTED = {1003, 1004, 1014, 2001, 2008, 2010}
+CRITICAL = 1
+
+# Known types in file order: flags.
+KNOWN = {"SCEN": 7, "VERT": 7, "TRIS": 7, "DRCO": 7, "GEOM": 7, "SRCP": 7, "TREE": 1, "NODE": 1, "PRIM": 1, "PROV": 6}
+
+
+class Rejected(Exception):
+    def __init__(self, clause, message):
+        super().__init__(message)
+        self.clause = clause
+        self.kind = "unsupported" if clause in UNSUPPORTED else "invalid"
+
+
+def reject_if(condition, clause, message):
+    if condition:
+        raise Rejected(clause, message)
+
+
+def hash64(data):
+    return xxhash.xxh3_64_intdigest(data)
+
+
+def digest(data):
+    hashes = [struct.pack("<Q", hash64(data[i:i + BLOCK])) for i in range(0, len(data), BLOCK)]
+    return hash64(b"".join(hashes))
+
+
+def decode_zstd(stored, raw_size):
+    """The blocks of container.md 6, one frame each."""
+    raw = bytearray()
+    try:
+        while len(raw) < raw_size:
+            reject_if(stored[:4] != b"\x28\xB5\x2F\xFD", 1018, "no zstd frame")
+            parameters = zstandard.get_frame_parameters(stored)
+            expected = min(BLOCK, raw_size - len(raw))
+            reject_if(parameters.content_size != expected or parameters.dict_id != 0, 1018, "not a frame of one block")
+            decoder = zstandard.ZstdDecompressor().decompressobj()
+            block = decoder.decompress(stored)
+            reject_if(len(block) != expected, 1018, "a frame has the wrong size")
+            raw += block
+            stored = decoder.unused_data
+    except zstandard.ZstdError as error:
+        raise Rejected(1018, str(error)) from error
+    reject_if(len(stored) > 0, 1018, "bytes follow the last frame")
+    return bytes(raw)
+
+
+class Chunk:
+    def __init__(self, kind, flags, codec, raw_size, stored_size, offset, raw):
+        self.type, self.flags, self.codec, self.offset, self.raw = kind, flags, codec, offset, raw
+        self.raw_size, self.stored_size = raw_size, stored_size
+
+
+def read_header(data):
+    reject_if(data[:12] != SIGNATURE[:len(data)], 1001, "no signature")
+    reject_if(len(data) < 64, 1010, "cut within the header")
+    major, minor, reader_major, reader_minor = struct.unpack_from("<4H", data, 12)
+    reject_if(struct.unpack_from("<Q", data, 56)[0] != hash64(data[:56]), 1002, "header checksum")
+    reject_if(major > VERSION[0], 1003, f"version {major}.{minor}")
+    reject_if(major == 0 or (reader_major, reader_minor) > (major, minor), 1005, "versions out of order")
+    reject_if((reader_major, reader_minor) > VERSION, 1004, f"needs a reader of version {reader_major}.{reader_minor}")
+    reject_if(any(data[20:56]), 1006, "reserved bytes")
+    return f"{major}.{minor}"
+
+
+def read_container(data):
+    """All chunks but END; checks every clause R10xx."""
+    read_header(data)
+    chunks, records, offset = [], [], 64
+    while True:
+        header = data[offset:offset + 64]
+        reject_if(len(header) < 64, 1010, f"cut at {offset}")
+        type_bytes, flags, codec, reserved = struct.unpack_from("<4s3I", header)
+        raw_size, stored_size, checksum = struct.unpack_from("<3Q", header, 16)
+        reject_if(struct.unpack_from("<Q", header, 56)[0] != hash64(header[:56]), 1011, f"chunk header at {offset}")
+        reject_if(any(not (bytes([b]).isalnum() or b == 32) for b in type_bytes), 1013, f"type {type_bytes}")
+        kind = type_bytes.decode("ascii")
+        reject_if(reserved != 0 or any(header[40:56]) or flags >= 8, 1012, f"{kind}: reserved field or flag")
+        reject_if(codec > 1, 1014, f"{kind}: codec {codec}")
+        reject_if(raw_size > MAX_SIZE or stored_size > MAX_SIZE, 1015, f"{kind}: too large")
+        reject_if(codec == 0 and raw_size != stored_size, 1015, f"{kind}: two sizes")
+        reject_if(codec == 1 and not 1 <= raw_size <= MAX_EXPANSION * stored_size, 1015, f"{kind}: expands too much")
+        end = offset + 64 + stored_size
+        padded = (end + 63) // 64 * 64
+        stored = data[offset + 64:end]
+        reject_if(len(data) < padded, 1010, f"{kind}: cut")
+        reject_if(any(data[end:padded]), 1017, f"{kind}: padding")
+        reject_if(digest(stored) != checksum, 1016, f"{kind}: payload checksum")
+        raw = decode_zstd(stored, raw_size) if codec == 1 else stored
+        offset = padded
+        if kind == "END ":
+            break
+        chunks.append(Chunk(kind, flags, codec, raw_size, stored_size, offset, raw))
+        if kind != "PROV":
+            records.append(struct.pack("<4sIQQ", type_bytes, flags, raw_size, digest(raw)))
+    reject_if(flags != CRITICAL or codec != 0 or raw_size != 32, 1020, "END's header")
+    content_hash, count, size, reserved = struct.unpack("<4Q", raw)
+    reject_if(reserved != 0, 1020, "END's reserved field")
+    reject_if(count != len(chunks) or size != offset, 1021, "END's totals")
+    reject_if(content_hash != hash64(b"".join(records)), 1022, "content hash")
+    reject_if(len(data) > offset, 1023, "bytes after END")
+    return chunks, content_hash
+
+
+class Sequence:
+    """Known chunks in the order of chunks.md."""
+
+    def __init__(self, chunks):
+        self.known, seen = [], set()
+        for chunk in chunks:
+            if chunk.type not in KNOWN:
+                reject_if(chunk.flags & CRITICAL, 2001, f"unknown critical chunk {chunk.type}")
+                continue
+            reject_if(chunk.flags != KNOWN[chunk.type], 2004, f"flags of {chunk.type}")
+            reject_if(chunk.type in seen, 2003, f"{chunk.type} twice")
+            seen.add(chunk.type)
+            self.known.append(chunk)
+
+    def expect(self, kind, size=None):
+        found = self.known.pop(0) if self.known else None
+        reject_if(found is None or found.type != kind, 2002, f"{kind} should be here")
+        reject_if(size is not None and found.raw_size != size, 2005, f"size of {kind}")
+        return found.raw
+
+    def next_is(self, kind):
+        return bool(self.known) and self.known[0].type == kind
+
+
+def check_text(data):
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise Rejected(2014, "text is not UTF-8") from error
+
+
+def read_scene(chunks):
+    raw = chunks.expect("SCEN", 64)
+    vertices, triangles, geometries, name_bytes, encoding, flags = struct.unpack_from("<4Q2I", raw)
+    reject_if(any(raw[40:]) or flags > 1, 2006, "SCEN: reserved")
+    reject_if(not (1 <= vertices < 2**32 and 1 <= triangles < 2**31 and 1 <= geometries < 2**32 and name_bytes < 2**32), 2007,
+              "SCEN: counts")
+    reject_if(encoding > 1, 2008, "geometry encoding")
+    points, corners = None, None
+    if encoding == 0:
+        points = list(struct.iter_unpack("<3f", chunks.expect("VERT", 12 * vertices)))
+        for p in points:
+            reject_if(not all(map(math.isfinite, p)), 4004, "vertex")
+            reject_if(any(c == 0 and math.copysign(1, c) < 0 for c in p), 4005, "-0")
+        corners = list(struct.iter_unpack("<3I", chunks.expect("TRIS", 12 * triangles)))
+        reject_if(any(i >= vertices for t in corners for i in t), 4006, "vertex index")
+    else:
+        chunks.expect("DRCO")
+    raw = chunks.expect("GEOM", 8 * geometries + name_bytes)
+    table = list(struct.iter_unpack("<2I", raw[:8 * geometries]))
+    reject_if(sum(c for c, _ in table) != triangles or sum(n for _, n in table) != name_bytes, 2009, "geometry table")
+    names, at = [], 8 * geometries
+    for _, length in table:
+        names.append(check_text(raw[at:at + length]))
+        at += length
+    if flags & 1:
+        chunks.expect("SRCP", 4 * triangles)
+    boxes = None
+    if points is not None:
+        boxes = [[f(points[i][axis] for i in t) for f in (min, max) for axis in range(3)] for t in corners]
+    return {"vertices": vertices, "triangles": triangles, "geometries": len(names), "boxes": boxes}
+
+
+def inside(inner, outer):
+    return all(outer[i] <= inner[i] and outer[i + 3] >= inner[i + 3] for i in range(3))
+
+
+def check_aabb(raw_nodes, raw_primitives, slots, references, stated_depth, scene):
+    nodes = list(struct.iter_unpack("<6f2I", raw_nodes))
+    primitives = struct.unpack(f"<{references}I", raw_primitives)
+    triangles, boxes = scene["triangles"], scene["boxes"]
+    reject_if(any(raw_nodes[32:64]), 3001, "slot 1")
+    for index, node in enumerate(nodes):
+        bad = not all(map(math.isfinite, node[:6])) or any(node[i] > node[i + 3] for i in range(3))
+        reject_if(bad and index != 1, 4001, f"node {index}")
+    depth, owner, leaf_boxes = {0: 0}, [False] * references, {}
+    for index, node in enumerate(nodes):
+        if index == 1:
+            continue
+        box, first, count = node[:6], node[6], node[7]
+        if count > 0:
+            reject_if(count > 65535 or first + count > references, 3004, f"leaf {index}")
+            for entry in range(first, first + count):
+                reject_if(owner[entry], 3005, f"entry {entry}")
+                owner[entry] = True
+                reject_if(primitives[entry] >= triangles, 3006, f"entry {entry}")
+                leaf_boxes.setdefault(primitives[entry], []).append(box)
+            continue
+        reject_if(first % 2 or first <= index or first >= slots, 3002, f"node {index}")
+        reject_if(first in depth, 3003, f"node {first}")
+        reject_if(index not in depth, 3003, f"node {index}")  # parents come first, so its parent would be known by now
+        for child in (first, first + 1):
+            depth[child] = depth[index] + 1
+            reject_if(not inside(nodes[child], box), 4002, f"node {child}")
+    reject_if(len(depth) != slots - 1, 3003, "a node has no parent")
+    reject_if(not all(owner), 3005, "gap")
+    reject_if(len(leaf_boxes) != triangles, 3007, "a triangle is in no leaf")
+    reject_if(max(depth.values()) > 96, 3008, "too deep")
+    reject_if(max(depth.values()) != stated_depth, 3009, "depth")
+    if boxes is None:
+        return
+    for triangle, leaves in leaf_boxes.items():
+        t = boxes[triangle]
+        if references == triangles:
+            reject_if(not inside(t, leaves[0]), 4003, f"triangle {triangle}")
+        else:
+            hull = [min(b[i] for b in leaves) for i in range(3)] + [max(b[i] for b in leaves) for i in range(3, 6)]
+            reject_if(not inside(t, hull), 4003, f"triangle {triangle}")
+            for b in leaves:
+                reject_if(any(t[i] > b[i + 3] or t[i + 3] < b[i] for i in range(3)), 4003, f"triangle {triangle}")
+
+
+def read_tree(chunks, scene):
+    raw = chunks.expect("TREE", 64)
+    form, reserved, slots, references, traversal, intersection, depth = struct.unpack_from("<4sIQQ2fI", raw)
+    reject_if(reserved != 0 or any(raw[36:]), 2006, "TREE: reserved")
+    reject_if(form != b"aabb", 2010, f"form {form}")
+    reject_if(not (scene["triangles"] <= references < 2**32 and 2 <= slots <= 2 * references and slots < 2**32
+                   and slots % 2 == 0 and depth <= 96), 2011, "TREE: counts")
+    for cost in (traversal, intersection):
+        reject_if(not math.isfinite(cost) or math.copysign(1, cost) < 0, 2012, "SAH cost")
+    nodes = chunks.expect("NODE", 32 * slots)
+    primitives = chunks.expect("PRIM", 4 * references)
+    check_aabb(nodes, primitives, slots, references, depth, scene)
+    return {"form": form.decode(), "nodes": slots - 1, "references": references, "depth": depth}
+
+
+def read_provenance(raw):
+    at, texts = 8, []
+    reject_if(len(raw) < 8, 2013, "PROV: cut")
+    count, reserved = struct.unpack_from("<2I", raw)
+    reject_if(reserved != 0, 2006, "PROV: reserved")
+    reject_if(12 * count > len(raw) - 8, 2013, "PROV: entries")
+    for _ in range(3 * count):
+        reject_if(at + 4 > len(raw), 2013, "PROV: cut")
+        length, = struct.unpack_from("<I", raw, at)
+        reject_if(at + 4 + length > len(raw), 2013, "PROV: cut")
+        texts.append(check_text(raw[at + 4:at + 4 + length]))
+        at += 4 + length
+    reject_if(at != len(raw), 2013, "PROV: bytes behind the last entry")
+    return texts[::3]
+
+
+def read(data):
+    """The summary of a file as a dict; raises Rejected."""
+    all_chunks, content_hash = read_container(data)
+    chunks = Sequence(all_chunks)
+    scene = read_scene(chunks)
+    tree = read_tree(chunks, scene)
+    tools = read_provenance(chunks.expect("PROV")) if chunks.next_is("PROV") else []
+    reject_if(bool(chunks.known), 2002, "END should be here")
+    geometry = "not decoded" if scene.pop("boxes") is None else "checked"
+    return {**scene, **tree, "geometry": geometry, "tools": " ".join(tools), "chunks": len(all_chunks),
+            "content_hash": f"{content_hash:016x}"}
+
+
+def main(paths):
+    if not paths or paths[0] in ("-h", "--help"):
+        print(__doc__)
+        return 0 if paths else 1
+    status = 0
+    for path in paths:
+        try:
+            with (sys.stdin.buffer if path == "-" else open(path, "rb")) as file:
+                data = file.read()
+        except OSError as error:
+            print(f"{path}: {error.strerror}")
+            status = 2
+            continue
+        try:
+            print(f"{path}: valid 0 " + " ".join(f"{k}={v}" for k, v in read(data).items()))
+        except Rejected as rejected:
+            print(f"{path}: {rejected.kind} {rejected.clause} {rejected}")
+            status = 5 if rejected.kind == "unsupported" else 3
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,105 @@
+// What the golden files hold: one for each chunk, codec and geometry encoding. Coordinates are small dyadic
+// numbers, so that no compiler or processor computes them differently.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "build/median.h"
+#include "file/bvhx_file.h"
+#include "file/container.h"
+
+namespace bvhio {
+
+struct GoldenFile {
+    std::string name;
+    BvhxFile content;
+    WriteOptions options;
+};
+
+/// The two triangles whose bytes the pages of format-spec work through.
+inline BvhxFile twoTriangles() {
+    Scene scene;
+    scene.vertices = std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 2}};
+    scene.triangles = std::vector<TriangleIndices>{{0, 1, 2}, {0, 1, 3}};
+    scene.geometries = {{"a", 0, 2}};
+    AlignedVector<Node> nodes{
+        {{{0, 0, 0}, {1, 1, 2}}, 2, 0}, {}, {{{0, 0, 0}, {1, 1, 0}}, 0, 1}, {{{0, 0, 0}, {1, 0, 2}}, 1, 1}};
+    return {scene, AabbForm({std::move(nodes), std::vector<uint32_t>{0, 1}}), {1.5f, 1.0f}, {}, {}};
+}
+
+/// A bumpy grid in three geometries, with numbers of source primitives, provenance and chunks of unknown
+/// types.
+inline BvhxFile grid() {
+    constexpr uint32_t side = 6;
+    std::vector<Vec3> vertices;
+    for (uint32_t y = 0; y <= side; ++y)
+        for (uint32_t x = 0; x <= side; ++x)
+            vertices.push_back({float(x) * 0.5f, float(y) * 0.25f, float((x * 7 + y * 3) % 5) * 0.125f});
+    std::vector<TriangleIndices> triangles;
+    std::vector<uint32_t> source;
+    for (uint32_t y = 0; y < side; ++y)
+        for (uint32_t x = 0; x < side; ++x) {
+            const uint32_t v = y * (side + 1) + x;
+            triangles.push_back({v, v + 1, v + side + 1});
+            triangles.push_back({v + 1, v + side + 2, v + side + 1});
+            source.push_back(4 * (y * side + x));
+            source.push_back(4 * (y * side + x) + 1);
+        }
+    Scene scene;
+    const auto count = uint32_t(triangles.size());
+    scene.vertices = std::move(vertices);
+    scene.triangles = std::move(triangles);
+    scene.sourcePrimitives = std::move(source);
+    scene.geometries = {{"floor", 0, 30}, {"", 30, 0}, {"W\xC3\xA4nde", 30, count - 30}};
+    Bvh bvh = buildMedian(scene, {});
+    const auto payload = [](const std::string& text) {
+        const auto bytes = std::as_bytes(std::span(text));
+        return std::vector<std::byte>(bytes.begin(), bytes.end());
+    };
+    return {
+        scene,
+        AabbForm(std::move(bvh)),
+        {1.25f, 1.0f},
+        {{"bvh-build", "0.1.0", R"({"builder":"median"})"}, {"bvh-relayout", "0.1.0", R"({"layout":"dfs"})"}},
+        {{chunkType("xTRI"), kSurvivesReorder | kSurvivesTopologyChange, payload("of each triangle")},
+         {chunkType("xNOD"), kSurvivesTopologyChange, payload("")},
+         {chunkType("xTRE"), kSurvivesReorder, payload("of the tree")}}};
+}
+
+/// One triangle in the root.
+inline BvhxFile oneLeaf() {
+    Scene scene;
+    scene.vertices = std::vector<Vec3>{{1, 1, 1}, {1, 1, 1}, {3, 1, 1}};
+    scene.triangles = std::vector<TriangleIndices>{{0, 1, 2}};
+    scene.geometries = {{"", 0, 0}, {"line", 0, 1}};
+    AlignedVector<Node> nodes{{{{1, 1, 1}, {3, 1, 1}}, 0, 1}, {}};
+    return {scene, AabbForm({std::move(nodes), std::vector<uint32_t>{0}}), {}, {}, {}};
+}
+
+/// The second of two triangles was split: two leaves have a part of it each.
+inline BvhxFile splitTriangle() {
+    Scene scene;
+    scene.vertices = std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {4, 0, 0}};
+    scene.triangles = std::vector<TriangleIndices>{{0, 1, 2}, {0, 3, 2}};
+    scene.geometries = {{"", 0, 2}};
+    AlignedVector<Node> nodes{{{{0, 0, 0}, {4, 1, 0}}, 2, 0},
+                              {},
+                              {{{0, 0, 0}, {2, 1, 0}}, 1, 2},
+                              {{{2, 0, 0}, {4, 0.5f, 0}}, 0, 1}};
+    return {scene, AabbForm({std::move(nodes), std::vector<uint32_t>{1, 0, 1}}), {}, {}, {}};
+}
+
+inline std::vector<GoldenFile> goldenFiles() {
+    return {{"two_triangles", twoTriangles(), {}},
+            {"grid_none", grid(), {}},
+            {"grid_zstd", grid(), {.codec = "zstd"}},
+            {"grid_draco", grid(), {.geometry = GeometryEncoding::draco, .dracoPositionBits = 8}},
+            {"grid_draco_zstd",
+             grid(),
+             {.codec = "zstd", .geometry = GeometryEncoding::draco, .dracoPositionBits = 8}},
+            {"one_leaf", oneLeaf(), {}},
+            {"split_triangle", splitTriangle(), {}}};
+}
+
+}  // namespace bvhio

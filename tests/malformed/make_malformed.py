@@ -1,0 +1,367 @@
+#!/usr/bin/python3
+"""Writes the malformed files of this folder, one or more for each clause by which a reader must reject a file, and manifest.csv.
+
+Each starts from a golden file, is taken apart into chunks, damaged in one way, and put together with right checksums, so that
+nothing but the one clause is broken. Usage: make_malformed.py [FOLDER]; FOLDER defaults to this script's.
+"""
+import csv
+import os
+import struct
+import sys
+
+import xxhash
+import zstandard
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+GOLDEN = os.path.join(HERE, "..", "golden", "v1")
+UNSUPPORTED = {1003, 1004, 1014, 2001, 2008, 2010}
+
+
+def hash64(data):
+    return xxhash.xxh3_64_intdigest(data)
+
+
+def digest(data):
+    return hash64(b"".join(struct.pack("<Q", hash64(data[i:i + 2**20])) for i in range(0, len(data), 2**20)))
+
+
+def pad(data):
+    return data + bytes(-len(data) % 64)
+
+
+class Chunk:
+    """A chunk as its writer sees it; fields that are None are computed."""
+
+    def __init__(self, kind, flags, raw, codec=0, stored=None):
+        self.kind, self.flags, self.raw, self.codec = kind, flags, raw, codec
+        self.stored = raw if stored is None else stored
+        self.raw_size = self.stored_size = self.checksum = self.header_checksum = None
+        self.reserved12, self.reserved40 = 0, bytes(16)
+        self.padding = None
+
+    def bytes(self):
+        raw_size = len(self.raw) if self.raw_size is None else self.raw_size
+        stored_size = len(self.stored) if self.stored_size is None else self.stored_size
+        checksum = digest(self.stored) if self.checksum is None else self.checksum
+        header = struct.pack("<4s3I3Q", self.kind, self.flags, self.codec, self.reserved12, raw_size, stored_size, checksum)
+        header += self.reserved40
+        header += struct.pack("<Q", hash64(header) if self.header_checksum is None else self.header_checksum)
+        padding = bytes(-len(self.stored) % 64) if self.padding is None else self.padding
+        return header + self.stored + padding
+
+
+class File:
+    def __init__(self, name):
+        data = open(os.path.join(GOLDEN, name + ".bvhx"), "rb").read()
+        self.signature = data[:12]
+        self.version = struct.unpack_from("<4H", data, 12)
+        self.reserved = bytes(36)
+        self.header_checksum = None
+        self.chunks, self.tail = [], b""
+        self.hash = self.count = self.size = None
+        self.end = Chunk(b"END ", 1, b"")
+        self.end_reserved = 0
+        at = 64
+        while True:
+            kind, flags, codec, _, raw_size, size, _ = struct.unpack_from("<4s3I3Q", data, at)
+            if kind == b"END ":
+                break
+            stored = data[at + 64:at + 64 + size]
+            raw = zstandard.decompress(stored, raw_size) if codec else stored
+            self.chunks.append(Chunk(kind, flags, raw, codec, stored))
+            at += 64 + size + (-size % 64)
+
+    def __getitem__(self, kind):
+        return next(c for c in self.chunks if c.kind == kind.encode())
+
+    def patch(self, kind, offset, fmt, *values):
+        chunk = self[kind]
+        data = bytearray(chunk.raw)
+        struct.pack_into("<" + fmt, data, offset, *values)
+        chunk.raw = chunk.stored = bytes(data)
+        return self
+
+    def replace(self, kind, raw):
+        self[kind].raw = self[kind].stored = raw
+        return self
+
+    def index(self, kind):
+        return self.chunks.index(self[kind])
+
+    def bytes(self):
+        header = self.signature + struct.pack("<4H", *self.version) + self.reserved
+        header += struct.pack("<Q", hash64(header) if self.header_checksum is None else self.header_checksum)
+        body = header + b"".join(c.bytes() for c in self.chunks)
+        records = b"".join(struct.pack("<4sIQQ", c.kind, c.flags, len(c.raw), digest(c.raw)) for c in self.chunks if c.kind != b"PROV")
+        content = hash64(records) if self.hash is None else self.hash
+        count = len(self.chunks) if self.count is None else self.count
+        size = len(body) + 128 if self.size is None else self.size
+        if not self.end.stored:
+            self.end.raw = self.end.stored = struct.pack("<4Q", content, count, size, self.end_reserved)
+        return body + self.end.bytes() + self.tail
+
+
+CASES = []
+
+
+def case(clause, name, base="two_triangles"):
+    """Registers a function that damages a File, or returns the damaged bytes."""
+    def register(function):
+        CASES.append((clause, name, base, function))
+        return function
+    return register
+
+
+def simple(clause, name, function, base="two_triangles"):
+    CASES.append((clause, name, base, function))
+
+
+def set_field(owner, **fields):
+    for key, value in fields.items():
+        setattr(owner, key, value)
+
+
+# --- the file's header
+simple(1001, "text", lambda f: b"# a wavefront file\nv 0 0 0\n" + bytes(100))
+simple(1001, "crlf_to_lf", lambda f: f.bytes().replace(b"\r\n", b"\n"))
+simple(1001, "lf_to_crlf", lambda f: f.bytes().replace(b"\n", b"\r\n"))
+simple(1001, "seven_bits", lambda f: bytes(b & 127 for b in f.bytes()))
+simple(1002, "header_checksum", lambda f: set_field(f, header_checksum=1))
+simple(1003, "major_2", lambda f: set_field(f, version=(2, 0, 2, 0), reserved=bytes(range(36))))
+simple(1004, "reader_1_1", lambda f: set_field(f, version=(1, 1, 1, 1)))
+simple(1005, "major_0", lambda f: set_field(f, version=(0, 9, 0, 9)))
+simple(1005, "reader_after_version", lambda f: set_field(f, version=(1, 0, 1, 1)))
+simple(1006, "header_reserved", lambda f: set_field(f, reserved=bytes(35) + b"\1"))
+
+# --- chunks
+simple(1010, "empty", lambda f: b"")
+simple(1010, "in_signature", lambda f: f.bytes()[:7])
+simple(1010, "in_header", lambda f: f.bytes()[:40])
+simple(1010, "no_chunk", lambda f: f.bytes()[:64])
+simple(1010, "in_chunk_header", lambda f: f.bytes()[:100])
+simple(1010, "in_payload", lambda f: f.bytes()[:0x110])
+simple(1010, "in_padding", lambda f: f.bytes()[:0x138])
+simple(1010, "without_end", lambda f: f.bytes()[:-128])
+simple(1010, "in_end_padding", lambda f: f.bytes()[:-1])
+
+
+@case(1010, "huge_payload")
+def huge_payload(f):
+    f.chunks.insert(1, Chunk(b"xNEW", 0, b"?"))
+    set_field(f.chunks[1], raw_size=2**47, stored_size=2**47)
+
+
+simple(1011, "chunk_header_checksum", lambda f: set_field(f["VERT"], header_checksum=1))
+simple(1012, "reserved_12", lambda f: set_field(f["VERT"], reserved12=1))
+simple(1012, "reserved_40", lambda f: set_field(f["VERT"], reserved40=b"\1" + bytes(15)))
+simple(1012, "flag_3", lambda f: set_field(f["VERT"], flags=15))
+simple(1013, "type", lambda f: set_field(f["VERT"], kind=b"V\xE9RT"))
+simple(1014, "codec_2", lambda f: set_field(f["VERT"], codec=2))
+simple(1015, "none_with_two_sizes", lambda f: set_field(f["VERT"], raw_size=24))
+simple(1015, "over_2_48", lambda f: set_field(f["VERT"], raw_size=2**63, stored_size=2**63))
+simple(1015, "zstd_of_nothing", lambda f: f.chunks.insert(1, Chunk(b"xNEW", 0, b"", 1, zstandard.compress(b""))))
+simple(1016, "payload_checksum", lambda f: set_field(f["VERT"], checksum=1))
+simple(1017, "padding", lambda f: set_field(f["VERT"], padding=bytes(15) + b"\1"))
+simple(1017, "end_padding", lambda f: set_field(f.end, padding=bytes(31) + b"\1"))
+
+
+@case(1015, "zstd_bomb")
+def zstd_bomb(f):
+    zeros = bytes(2**24)
+    stored = b"".join(zstandard.compress(zeros[i:i + 2**20]) for i in range(0, len(zeros), 2**20))
+    f.chunks.insert(1, Chunk(b"xNEW", 0, zeros, 1, stored))
+
+
+def zstd_case(name, make):
+    """An ancillary chunk with this stored payload; its raw payload is 3000 bytes that hardly compress."""
+    def damage(f):
+        raw = b"".join(struct.pack("<Q", hash64(bytes([i % 256, i // 256]))) for i in range(375))
+        f.chunks.insert(1, Chunk(b"xNEW", 0, raw, 1, make(raw)))
+    simple(1018, name, damage)
+
+
+zstd_case("no_zstd", lambda raw: raw)
+zstd_case("cut_frame", lambda raw: zstandard.compress(raw)[:-1])
+def reserved_block(raw):
+    frame = bytearray(zstandard.compress(raw))
+    frame[zstandard.frame_header_size(bytes(frame))] |= 6  # block type 3 is reserved
+    return bytes(frame)
+
+
+zstd_case("damaged_frame", reserved_block)
+zstd_case("trailing_byte", lambda raw: zstandard.compress(raw) + b"\0")
+zstd_case("skippable_frame", lambda raw: zstandard.compress(raw) + b"\x50\x2A\x4D\x18\4\0\0\0....")
+zstd_case("two_frames_in_a_block", lambda raw: zstandard.compress(raw[:1500]) + zstandard.compress(raw[1500:]))
+zstd_case("too_short", lambda raw: zstandard.compress(raw[:-1]))
+zstd_case("too_long", lambda raw: zstandard.compress(raw + b"\0"))
+zstd_case("no_content_size", lambda raw: zstandard.ZstdCompressor(write_content_size=False).compress(raw))
+
+# --- END
+simple(1020, "end_flags", lambda f: set_field(f.end, flags=0))
+simple(1020, "end_size", lambda f: set_field(f.end, stored=bytes(31), raw=bytes(31)))
+simple(1020, "end_reserved", lambda f: set_field(f, end_reserved=1))
+simple(1021, "chunk_count", lambda f: set_field(f, count=6))
+simple(1021, "file_size", lambda f: set_field(f, size=1151))
+simple(1022, "content_hash", lambda f: set_field(f, hash=1))
+simple(1023, "trailing_byte", lambda f: set_field(f, tail=b"\0"))
+simple(1023, "two_files", lambda f: set_field(f, tail=File("one_leaf").bytes()))
+
+# --- which chunks
+simple(2001, "unknown_critical", lambda f: f.chunks.insert(1, Chunk(b"NEWC", 1, b"?")))
+simple(2002, "nothing_but_end", lambda f: f.chunks.clear())
+for kind in ("SCEN", "VERT", "TRIS", "GEOM", "TREE", "NODE", "PRIM"):
+    simple(2002, "no_" + kind.lower(), lambda f, k=kind: f.chunks.remove(f[k]))
+simple(2002, "order", lambda f: f.chunks.insert(1, f.chunks.pop(2)))
+simple(2002, "srcp_unannounced", lambda f: f.chunks.insert(4, Chunk(b"SRCP", 7, bytes(8))))
+simple(2002, "prov_first", lambda f: f.chunks.insert(0, Chunk(b"PROV", 6, bytes(8))))
+simple(2002, "draco_in_raw", lambda f: f.chunks.insert(1, Chunk(b"DRCO", 7, bytes(8))))
+simple(2002, "raw_in_draco", lambda f: f.patch("SCEN", 32, "I", 1))
+simple(2003, "twice", lambda f: f.chunks.insert(2, f["VERT"]))
+simple(2003, "prov_twice", lambda f: f.chunks.extend([Chunk(b"PROV", 6, bytes(8)), Chunk(b"PROV", 6, bytes(8))]))
+simple(2004, "flags", lambda f: set_field(f["VERT"], flags=6))
+for kind in ("SCEN", "VERT", "TRIS", "GEOM", "TREE", "NODE", "PRIM"):
+    simple(2005, "size_of_" + kind.lower(), lambda f, k=kind: f.replace(k, f[k].raw + bytes(4)))
+simple(2005, "size_of_srcp", lambda f: f.replace("SRCP", f["SRCP"].raw[:-4]), "grid_none")
+simple(2006, "scene_reserved", lambda f: f.patch("SCEN", 63, "B", 1))
+simple(2006, "scene_flag", lambda f: f.patch("SCEN", 36, "I", 2))
+simple(2006, "tree_reserved_4", lambda f: f.patch("TREE", 4, "I", 1))
+simple(2006, "tree_reserved_36", lambda f: f.patch("TREE", 36, "B", 1))
+simple(2006, "prov_reserved", lambda f: f.patch("PROV", 4, "I", 1), "grid_none")
+simple(2007, "no_vertices", lambda f: f.patch("SCEN", 0, "Q", 0))
+simple(2007, "no_triangles", lambda f: f.patch("SCEN", 8, "Q", 0))
+simple(2007, "2_31_triangles", lambda f: f.patch("SCEN", 8, "Q", 2**31))
+simple(2007, "2_32_vertices", lambda f: f.patch("SCEN", 0, "Q", 2**32))
+simple(2007, "vertices_that_overflow", lambda f: f.patch("SCEN", 0, "Q", (2**64 + 48) // 12))
+simple(2007, "no_geometries", lambda f: f.patch("SCEN", 16, "Q", 0))
+simple(2007, "2_32_name_bytes", lambda f: f.patch("SCEN", 24, "Q", 2**32))
+simple(2008, "geometry_encoding", lambda f: f.patch("SCEN", 32, "I", 2))
+simple(2009, "triangles_of_geometries", lambda f: f.patch("GEOM", 0, "I", 3))
+simple(2009, "names_of_geometries", lambda f: f.patch("GEOM", 4, "I", 2))
+simple(2010, "form", lambda f: f.patch("TREE", 0, "4s", b"best"))
+simple(2011, "odd_slots", lambda f: f.patch("TREE", 8, "Q", 3))
+simple(2011, "no_slots", lambda f: f.patch("TREE", 8, "Q", 0))
+simple(2011, "more_slots_than_leaves_need", lambda f: f.patch("TREE", 8, "Q", 6))
+simple(2011, "too_few_references", lambda f: f.patch("TREE", 16, "Q", 1))
+simple(2011, "2_32_references", lambda f: f.patch("TREE", 16, "Q", 2**32))
+simple(2011, "depth_97", lambda f: f.patch("TREE", 32, "I", 97))
+simple(2012, "negative_cost", lambda f: f.patch("TREE", 24, "f", -1))
+simple(2012, "nan_cost", lambda f: f.patch("TREE", 28, "f", float("nan")))
+simple(2013, "prov_cut", lambda f: f.replace("PROV", f["PROV"].raw[:-1]), "grid_none")
+simple(2013, "prov_tail", lambda f: f.replace("PROV", f["PROV"].raw + b"\0"), "grid_none")
+simple(2013, "prov_too_short", lambda f: f.replace("PROV", bytes(7)), "grid_none")
+simple(2013, "prov_2_32_entries", lambda f: f.patch("PROV", 0, "I", 2**32 - 1), "grid_none")
+simple(2014, "name", lambda f: f.patch("GEOM", 8, "B", 0xFF))
+simple(2014, "prov_overlong", lambda f: f.patch("PROV", 12, "2B", 0xC0, 0x80), "grid_none")
+simple(2014, "prov_surrogate", lambda f: f.patch("PROV", 12, "3B", 0xED, 0xA0, 0x80), "grid_none")
+simple(2015, "draco_garbage", lambda f: f.replace("DRCO", bytes(100)), "grid_draco")
+simple(2015, "draco_cut", lambda f: f.replace("DRCO", f["DRCO"].raw[:-20]), "grid_draco")
+simple(2015, "draco_other_counts", lambda f: f.patch("SCEN", 0, "Q", 50), "grid_draco")
+
+# --- the aabb form. two_triangles: node 0 is the root, nodes 2 and 3 are its leaves
+NODE, FIRST, COUNT = 32, 24, 28
+simple(3001, "slot_1", lambda f: f.patch("NODE", NODE + 31, "B", 1))
+simple(3001, "slot_1_negative_zero", lambda f: f.patch("NODE", NODE, "f", -0.0))
+simple(3002, "odd_child", lambda f: f.patch("NODE", FIRST, "I", 3))
+simple(3002, "child_out_of_range", lambda f: f.patch("NODE", FIRST, "I", 4))
+simple(3002, "child_2_32", lambda f: f.patch("NODE", FIRST, "I", 2**32 - 2))
+simple(3002, "own_child", lambda f: f.patch("NODE", FIRST, "I", 0))
+simple(3002, "child_in_front", lambda f: f.patch("NODE", 2 * NODE + FIRST, "2I", 2, 0))
+simple(3004, "leaf_out_of_range", lambda f: f.patch("NODE", 3 * NODE + FIRST, "I", 2))
+simple(3004, "leaf_overflow", lambda f: f.patch("NODE", 3 * NODE + FIRST, "2I", 2**32 - 1, 2))
+simple(3005, "overlap", lambda f: f.patch("NODE", 3 * NODE + FIRST, "I", 0))
+simple(3005, "long_overlap", lambda f: f.patch("NODE", 2 * NODE + COUNT, "I", 2))
+simple(3006, "primitive", lambda f: f.patch("PRIM", 4, "I", 2))
+simple(3007, "missing_triangle", lambda f: (f.patch("PRIM", 4, "I", 0), f.patch("NODE", 3 * NODE, "6f", 0, 0, 0, 1, 1, 2))[0])
+simple(3009, "depth", lambda f: f.patch("TREE", 32, "I", 2))
+simple(4001, "nan_box", lambda f: f.patch("NODE", 2 * NODE + 4, "f", float("nan")))
+simple(4001, "infinite_box", lambda f: f.patch("NODE", 12, "f", float("inf")))
+simple(4001, "inverted_box", lambda f: f.patch("NODE", 2 * NODE + 8, "f", 0.5))
+simple(4002, "child_outside", lambda f: f.patch("NODE", 3 * NODE + 20, "f", 2.5))
+simple(4003, "triangle_outside", lambda f: f.patch("NODE", 3 * NODE + 20, "f", 1.5))
+simple(4003, "split_triangle_outside", lambda f: f.patch("NODE", 3 * NODE + 12, "f", 3.5), "split_triangle")
+simple(4003, "split_triangle_apart", lambda f: f.patch("NODE", 3 * NODE, "6f", 0, 0, 0, 4, 1, 0) and
+       f.patch("NODE", 2 * NODE, "6f", 1.5, 0, 0, 2, 1, 0), "split_triangle")
+simple(4004, "nan_vertex", lambda f: f.patch("VERT", 4, "f", float("nan")))
+simple(4004, "infinite_vertex", lambda f: f.patch("VERT", 44, "f", float("inf")))
+simple(4005, "negative_zero", lambda f: f.patch("VERT", 0, "f", -0.0))
+simple(4006, "vertex_index", lambda f: f.patch("TRIS", 8, "I", 4))
+simple(4006, "vertex_index_2_32", lambda f: f.patch("TRIS", 8, "I", 2**32 - 1))
+
+
+def rebuild(f, nodes, primitives, vertices=None, triangles=None, depth=None):
+    """Another tree, as a list of (box, first, count), over the file's or other geometry."""
+    if vertices:
+        f.replace("VERT", b"".join(struct.pack("<3f", *v) for v in vertices))
+        f.replace("TRIS", b"".join(struct.pack("<3I", *t) for t in triangles))
+        f.patch("SCEN", 0, "2Q", len(vertices), len(triangles)).patch("GEOM", 0, "I", len(triangles))
+    f.replace("NODE", b"".join(struct.pack("<6f2I", *box, first, count) for box, first, count in nodes))
+    f.replace("PRIM", struct.pack(f"<{len(primitives)}I", *primitives))
+    f.patch("TREE", 8, "2Q", len(nodes), len(primitives)).patch("TREE", 32, "I", depth)
+
+
+POINT = (1, 1, 1)
+POINTS = (*POINT, *POINT)
+UNUSED = ((0,) * 6, 0, 0)
+
+
+def points(count):
+    """Geometry: so many triangles, all of them the one point."""
+    return {"vertices": [POINT], "triangles": [(0, 0, 0)] * count}
+
+
+@case(3003, "shared_children")
+def shared_children(f):
+    # Nodes 2 and 3 both have children 4 and 5; nodes 6 and 7 have no parent.
+    nodes = [(POINTS, 2, 0), UNUSED, (POINTS, 4, 0), (POINTS, 4, 0), (POINTS, 0, 1), (POINTS, 1, 1), (POINTS, 2, 1), (POINTS, 3, 1)]
+    rebuild(f, nodes, [0, 1, 2, 3], depth=2, **points(4))
+
+
+@case(3003, "orphans")
+def orphans(f):
+    nodes = [(POINTS, 2, 0), UNUSED, (POINTS, 0, 1), (POINTS, 1, 1), (POINTS, 2, 1), (POINTS, 3, 1)]
+    rebuild(f, nodes, [0, 1, 2, 3], depth=1, **points(4))
+
+
+@case(3004, "leaf_too_large")
+def leaf_too_large(f):
+    # Runs of 16 entries, compressed: a small file within the limit of expansion.
+    entries = [hash64(struct.pack("<I", i // 16)) % 64 for i in range(65536)]
+    rebuild(f, [(POINTS, 0, 65536), UNUSED], entries, depth=0, **points(64))
+    f["PRIM"].codec, f["PRIM"].stored = 1, zstandard.compress(f["PRIM"].raw)
+
+
+@case(3005, "gap")
+def gap(f):
+    nodes = [(POINTS, 2, 0), UNUSED, (POINTS, 0, 1), (POINTS, 2, 1)]
+    rebuild(f, nodes, [0, 1, 1], depth=1, **points(2))
+
+
+@case(3008, "depth_97")
+def too_deep(f):
+    nodes, levels = [(POINTS, 2, 0), UNUSED], 97
+    for level in range(levels):
+        nodes.append((POINTS, level, 1))
+        last = level + 1 == levels
+        nodes.append((POINTS, levels, 1) if last else (POINTS, len(nodes) + 1, 0))
+    rebuild(f, nodes, list(range(levels + 1)), depth=96, **points(levels + 1))
+
+
+def main():
+    folder = sys.argv[1] if len(sys.argv) > 1 else HERE
+    rows = []
+    for clause, name, base, damage in CASES:
+        file = File(base)
+        result = damage(file)
+        data = result if isinstance(result, bytes) else file.bytes()
+        path = f"{clause}-{name}.bvhx"
+        with open(os.path.join(folder, path), "wb") as out:
+            out.write(data)
+        rows.append((path, "unsupported" if clause in UNSUPPORTED else "invalid", clause))
+    assert len({row[0] for row in rows}) == len(rows)
+    with open(os.path.join(folder, "manifest.csv"), "w", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(("file", "kind", "clause"))
+        writer.writerows(sorted(rows))
+
+
+main()

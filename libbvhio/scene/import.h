@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,28 +26,41 @@ struct Mesh {
     std::vector<TriangleIndices> triangles;  // empty for points and lines
 };
 
-/// A mesh placed in the world. `transform` is the upper 3 x 4 of an affine matrix, row by row.
+/// The upper 3 x 4 of an affine matrix, row by row. In double, so that a chain of nodes is rounded once, with
+/// the vertices.
+using Transform = std::array<double, 12>;
+inline constexpr Transform kIdentityTransform{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+
+/// A mesh placed in the world.
 struct Instance {
     uint32_t mesh = 0;
-    std::array<float, 12> transform{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    Transform transform = kIdentityTransform;
 };
 
-/// A scene as its file has it: shared meshes and where they stand, in scene order (glTF: depth first through the default scene's
-/// nodes, or, when the file names none, its first). OBJ, PLY, STL and DRC files give one mesh with one instance.
+/// A scene as its file has it: shared meshes and where they stand, in scene order (glTF: depth first through
+/// the default scene's nodes, or, when the file names none, its first). OBJ, PLY, STL and DRC files give one
+/// mesh with one instance.
 struct ImportedScene {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
 };
 
-/// Reads glTF, GLB, OBJ, PLY, STL or Draco (.drc), told apart by content first and file name second. Throws Error: io for a file
-/// that cannot be read, invalid for one that is damaged or holds no triangle or a vertex that is not finite (mesh and vertex
-/// named), unsupported for a required extension that is not known (by name).
+/// Reads glTF, GLB, OBJ, PLY, STL or Draco (.drc), told apart by content first and file name second. Throws
+/// Error: io for a file that cannot be read, invalid for one that is damaged, unsupported for a required
+/// extension that is not known (by name) and for a kind of file that is not known. Vertices and indices are
+/// as the file has them: flatten checks them.
 ImportedScene importFile(const std::filesystem::path& path);
 
-/// The same from memory; `name` is for messages, and its extension is a hint. `directory` is where external buffers are looked for.
-ImportedScene importBytes(std::span<const std::byte> bytes, const std::string& name, const std::filesystem::path& directory);
+/// The same from memory; `name` is for messages, and its extension is a hint. External buffers are looked for
+/// in `directory`.
+ImportedScene importBytes(std::span<const std::byte> bytes, const std::string& name,
+                          const std::filesystem::path& directory);
 
-/// Places every instance: one Geometry per instance, in order. Throws as documented for ImportOptions.
-Scene flatten(const ImportedScene& imported, const ImportOptions& options);
+/// Places every instance: one Geometry per instance, in order, named after its mesh. Vertices that no
+/// triangle uses are left out; transforms are applied in double and rounded once. Pass the imported scene as
+/// an rvalue: one mesh where it stands is moved, not copied. Throws Error: invalid for an index out of range,
+/// a vertex that is used and not finite (mesh and vertex named), no triangles, and as ImportOptions asks;
+/// unsupported for 2^31 triangles or more.
+Scene flatten(ImportedScene imported, const ImportOptions& options);
 
 }  // namespace bvhio

@@ -5,7 +5,8 @@
 namespace bvhio {
 
 Scene::PrimitiveId Scene::primitiveId(uint32_t triangle) const {
-    // The last geometry that starts at or before the triangle; empty geometries share a start, and the last of them owns it.
+    // The last geometry that starts at or before the triangle; empty geometries share a start, and the last
+    // of them owns it.
     const auto after = std::upper_bound(geometries.begin(), geometries.end(), triangle,
                                         [](uint32_t t, const Geometry& g) { return t < g.firstTriangle; });
     const auto geometry = uint32_t(after - geometries.begin()) - 1;

@@ -16,8 +16,9 @@ struct TriangleIndices {
 };
 static_assert(sizeof(TriangleIndices) == 12);
 
-/// A run of triangles that came from one mesh primitive of one glTF node, in scene order, or the one of an OBJ, PLY, STL or DRC
-/// file. Points and lines make a geometry without triangles, so that numbers match the source's.
+/// A run of triangles that came from one mesh primitive of one glTF node, in scene order, or the one of an
+/// OBJ, PLY, STL or DRC file. Points and lines make a geometry without triangles, so that numbers match the
+/// source's.
 struct Geometry {
     std::string name;
     uint32_t firstTriangle = 0;
@@ -25,14 +26,15 @@ struct Geometry {
     bool operator==(const Geometry&) const = default;
 };
 
-/// Indexed triangles in world space. Every coordinate is finite and never -0 (importers turn it into +0, so that minima and
-/// maxima do not depend on the order they are taken in); every index is in range; there is at least one triangle, and fewer than
-/// 2^31. Geometries are in order and their runs cover `triangles` exactly.
+/// Indexed triangles in world space. Every coordinate is finite and never -0 (importers turn it into +0, so
+/// that minima and maxima do not depend on the order they are taken in); every index is in range; there is at
+/// least one triangle, and fewer than 2^31. Geometries are in order and their runs cover `triangles` exactly.
 struct Scene {
     SharedArray<Vec3> vertices;
     SharedArray<TriangleIndices> triangles;
     std::vector<Geometry> geometries;
-    /// The triangle's number within its geometry in the source, where triangles were dropped; empty when none were.
+    /// The triangle's number within its geometry in the source, where triangles were dropped; empty when none
+    /// were.
     SharedArray<uint32_t> sourcePrimitives;
 
     Triangle triangle(size_t i) const {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include "core/hash.h"
 #include "core/parallel.h"
@@ -70,11 +71,17 @@ TEST(RaySets, countBoundsEachSet) {
 // figure measures.
 TEST(RaySets, areTheSameForAnyThreadsAndFrozen) {
     const Scene ball = makeBall(1, {0.25f, -3, 100});
+    const std::map<std::string_view, uint64_t> frozen = {{"primary", 0x8B2B499DB9B683B8ull},
+                                                         {"shadow", 0xB17F00A0EC9C38B3ull},
+                                                         {"ao", 0xDDDC8F19EE6CE770ull},
+                                                         {"diffuse", 0x9A290D35A26AA718ull},
+                                                         {"random", 0xDDBB4A253A44F988ull}};
     for (const RaySetChoice& row : raySets()) {
         const auto make = [&](uint64_t seed) {
             return makeRaySet(row.name, ball, {.resolution = {120, 90}, .seed = seed}, bruteForce(ball)).rays;
         };
         const auto rays = make(1);
+        EXPECT_EQ(hash64(std::as_bytes(std::span(rays))), frozen.at(row.name)) << row.name;
         const ThreadLimit one(1);
         const auto again = make(1);
         ASSERT_EQ(rays.size(), again.size()) << row.name;

@@ -40,7 +40,7 @@ constexpr Rgb kPaper{24, 24, 28}, kInk{220, 220, 220};
 
 /// How many pixels a glyph's dot is wide and high in a picture of this width.
 uint32_t dotSize(uint32_t width) {
-    return std::clamp(width / 480u, 1u, 8u);
+    return std::clamp(width / 360u, 1u, 8u);
 }
 
 uint32_t textWidth(std::string_view text, uint32_t dot) {

@@ -59,6 +59,7 @@ Kind findKind(std::span<const std::byte> bytes, const std::string& name) {
 }
 
 ImportedScene sceneOf(Mesh mesh) {
+    mesh.name.clear();  // a file's name is no content: the same bytes come from a pipe
     ImportedScene scene;
     scene.meshes.push_back(std::move(mesh));
     scene.instances.emplace_back();

@@ -21,7 +21,7 @@ struct ImportOptions {
 
 /// One mesh primitive in its own space: the unit that instances share.
 struct Mesh {
-    std::string name;
+    std::string name;  // as the source calls it; "" where it does not. The name of a file is no content
     std::vector<Vec3> vertices;
     std::vector<TriangleIndices> triangles;  // empty for points and lines
 };

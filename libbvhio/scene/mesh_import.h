@@ -9,7 +9,7 @@
 
 namespace bvhio {
 
-// Each takes a whole file; `name` is the file's, for messages, and becomes the mesh's. Triangles are in
+// Each takes a whole file; `name` is the file's, for messages. Triangles are in
 // source order, polygons are cut into fans (v0, vi, vi+1), and vertices keep their order and are not merged.
 // Values are as the file has them: flatten checks that vertices are finite and indices in range. Each throws
 // Error invalid for damaged text or data, with line or byte.

@@ -49,7 +49,7 @@ TEST(Import, readsFiles) {
     std::ofstream(path) << kObj;
     const ImportedScene scene = importFile(path);
     std::filesystem::remove(path);
-    EXPECT_EQ(scene.meshes.at(0).name, path.filename().string());
+    EXPECT_EQ(scene.meshes.at(0).name, "");  // the same bytes must come from a file by any name, or a pipe
     EXPECT_EQ(scene.instances.size(), 1u);
     for (const auto& missing : {path, std::filesystem::temp_directory_path()}) {
         try {

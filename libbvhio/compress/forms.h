@@ -1,12 +1,41 @@
 // THE list of forms. A new form is its own file and one line here.
 #pragma once
 
+#include <array>
 #include <variant>
 
 #include "compress/aabb_form.h"
+#include "core/choice.h"
 
 namespace bvhio {
 
 using EncodedBvh = std::variant<AabbForm>;
+
+/// A row of the table that the variant makes: a form's name, its summary and its encoder.
+using FormChoice = Choice<EncodedBvh (*)(const Bvh&)>;
+
+namespace detail {
+template <class... Forms>
+constexpr std::array<FormChoice, sizeof...(Forms)> formTable(const std::variant<Forms...>*) {
+    return {FormChoice{Forms::kName, Forms::kSummary,
+                       [](const Bvh& bvh) { return EncodedBvh(Forms::encode(bvh)); }}...};
+}
+}  // namespace detail
+
+/// All forms, the default first.
+inline std::span<const FormChoice> forms() {
+    static constexpr auto kTable = detail::formTable(static_cast<const EncodedBvh*>(nullptr));
+    return kTable;
+}
+
+/// The name of the form that holds the tree.
+inline std::string_view formNameOf(const EncodedBvh& bvh) {
+    return std::visit([](const auto& form) { return form.kName; }, bvh);
+}
+
+/// The canonical tree, boxes as the form reconstructs them.
+inline Bvh decode(const EncodedBvh& bvh) {
+    return std::visit([](const auto& form) { return form.decode(); }, bvh);
+}
 
 }  // namespace bvhio

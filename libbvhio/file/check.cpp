@@ -48,21 +48,10 @@ std::vector<Finding> check(ByteSource& source) {
     return findings;
 }
 
-}  // namespace
-
-std::vector<Finding> checkFile(const std::filesystem::path& path) {
-    return check(*openSource(path));
-}
-
-std::vector<Finding> checkBytes(std::span<const std::byte> bytes, const std::string& name) {
-    return check(*memorySource(bytes, name));
-}
-
-ChunkList listChunks(const std::filesystem::path& path) {
-    const auto source = openSource(path);
+ChunkList listChunks(ByteSource& source) {
     ChunkList list;
     try {
-        ContainerReader container(*source);
+        ContainerReader container(source);
         while (const auto header = container.nextHeader()) {
             const ChunkKind* kind = findChunkKind(header->type);
             list.chunks.push_back({*header, chunkTypeName(header->type),
@@ -74,6 +63,24 @@ ChunkList listChunks(const std::filesystem::path& path) {
         list.stop = error.finding();
     }
     return list;
+}
+
+}  // namespace
+
+std::vector<Finding> checkFile(const std::filesystem::path& path) {
+    return check(*openSource(path));
+}
+
+std::vector<Finding> checkBytes(std::span<const std::byte> bytes, const std::string& name) {
+    return check(*memorySource(bytes, name));
+}
+
+ChunkList listChunks(const std::filesystem::path& path) {
+    return listChunks(*openSource(path));
+}
+
+ChunkList listChunks(std::span<const std::byte> bytes, const std::string& name) {
+    return listChunks(*memorySource(bytes, name));
 }
 
 }  // namespace bvhio

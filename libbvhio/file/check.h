@@ -32,5 +32,6 @@ struct ChunkList {
 /// The chunks of a file, even of one whose content is damaged, as far as its chunk headers hold. Payloads are
 /// not decoded.
 ChunkList listChunks(const std::filesystem::path& path);
+ChunkList listChunks(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace bvhio

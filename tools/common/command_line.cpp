@@ -58,7 +58,7 @@ struct CommandLine::Parser {
     void add(const std::string& names, const std::string& valueName, const std::string& help,
              std::function<void(const std::string&)> set, std::function<Report()> get) {
         CLI::Option* option = app.add_option_function<std::string>(names, std::move(set), help);
-        option->type_name(valueName)->group(group);
+        option->type_name(valueName)->group(group)->take_last();
         if (recording) recorded.push_back({option->get_single_name(), std::move(get)});
     }
 
@@ -74,6 +74,40 @@ struct CommandLine::Parser {
                                                       std::to_string(min) + " to " + std::to_string(max));
                 value = *number;
             },
+            [&value] { return Report(value); });
+    }
+
+    /// `fileName` is empty where a file can't be named.
+    void addChoice(const std::string& names, std::string& value, const std::vector<NamedValue>& values,
+                   const std::string& fileName, const std::string& help) {
+        const std::string name = names.substr(names.rfind(',') + 1);
+        std::vector<std::string_view> allowed;
+        std::string list = withDefault(help, value) + ":", listed;
+        size_t width = 0;
+        for (const NamedValue& row : values) width = std::max(width, row.name.size());
+        for (size_t i = 0; i < values.size(); ++i) {
+            const NamedValue& row = values[i];
+            allowed.push_back(row.name);
+            list += "\n  " + std::string(row.name) + std::string(width - row.name.size() + 2, ' ') +
+                    std::string(row.summary);
+            listed += (i == 0                                       ? ""
+                       : i + 1 == values.size() && fileName.empty() ? " or "
+                                                                    : ", ") +
+                      std::string(row.name);
+        }
+        if (!fileName.empty()) listed += " or " + fileName;
+        const auto set = [=, &value](const std::string& text) {
+            const bool isFile = !fileName.empty() && text.find_first_of("./") != std::string::npos;
+            if (!isFile && std::find(allowed.begin(), allowed.end(), text) == allowed.end()) {
+                const std::string_view nearest = nearestName(text, allowed);
+                throw Error(ErrorKind::usage,
+                            name + ": unknown name '" + text + "': " +
+                                (nearest.empty() ? "" : "did you mean " + std::string(nearest) + "? ") +
+                                "use " + listed);
+            }
+            value = text;
+        };
+        add(names, fileName.empty() ? "NAME" : "NAME|" + fileName, list, set,
             [&value] { return Report(value); });
     }
 
@@ -160,31 +194,13 @@ void CommandLine::flag(const std::string& names, bool& value, const std::string&
 
 void CommandLine::choice(const std::string& names, std::string& value, const std::vector<NamedValue>& values,
                          const std::string& help) {
-    const std::string name = names.substr(names.rfind(',') + 1);
-    std::vector<std::string_view> allowed;
-    std::string list = withDefault(help, value) + ":", listed;
-    size_t width = 0;
-    for (const NamedValue& row : values) width = std::max(width, row.name.size());
-    for (size_t i = 0; i < values.size(); ++i) {
-        const NamedValue& row = values[i];
-        allowed.push_back(row.name);
-        list += "\n  " + std::string(row.name) + std::string(width - row.name.size() + 2, ' ') +
-                std::string(row.summary);
-        listed += (i == 0 ? "" : i + 1 == values.size() ? " or " : ", ") + std::string(row.name);
-    }
-    parser_->add(
-        names, "NAME", list,
-        [=, &value](const std::string& text) {
-            if (std::find(allowed.begin(), allowed.end(), text) == allowed.end()) {
-                const std::string_view nearest = nearestName(text, allowed);
-                throw Error(ErrorKind::usage,
-                            name + ": unknown name '" + text + "': " +
-                                (nearest.empty() ? "" : "did you mean " + std::string(nearest) + "? ") +
-                                "use " + listed);
-            }
-            value = text;
-        },
-        [&value] { return Report(value); });
+    parser_->addChoice(names, value, values, "", help);
+}
+
+void CommandLine::choiceOrFile(const std::string& names, std::string& value,
+                               const std::vector<NamedValue>& values, const std::string& fileName,
+                               const std::string& help) {
+    parser_->addChoice(names, value, values, fileName, help);
 }
 
 void CommandLine::beginPlumbing() {
@@ -203,7 +219,7 @@ void CommandLine::parse() {
     choice("--progress", progress,
            {{"auto", "when standard error is a terminal"},
             {"always", "a line a stage when it is none"},
-            {"never", ""}},
+            {"never", "not at all"}},
            "show progress on standard error");
     flag("-v,--verbose", verbose, "say more on standard error");
     flag("-q,--quiet", quiet, "only errors on standard error");
@@ -212,6 +228,11 @@ void CommandLine::parse() {
 
     try {
         app.parse(parser_->argc, parser_->argv);
+    } catch (const CLI::ArgumentMismatch& error) {
+        const std::string what = error.what();
+        if (!help && !version)
+            throw Error(ErrorKind::usage,
+                        what.substr(0, what.find(':')) + ": needs a value: see " + tool_.name + " --help");
     } catch (const CLI::Error& error) {
         if (!help && !version)
             throw Error(ErrorKind::usage, std::string(error.what()) + ": see " + tool_.name + " --help");

@@ -57,6 +57,9 @@ class CommandLine {
     /// One of `values`; a misspelt one is refused with the nearest.
     void choice(const std::string& names, std::string& value, const std::vector<NamedValue>& values,
                 const std::string& help);
+    /// One of `values` or any text with a dot or a slash in it: a file.
+    void choiceOrFile(const std::string& names, std::string& value, const std::vector<NamedValue>& values,
+                      const std::string& fileName, const std::string& help);
     /// From here on options say where things go, not what comes out: options() leaves them out. --help lists
     /// them apart.
     void beginPlumbing();

@@ -10,7 +10,7 @@ namespace bvhio {
 /// Throws Error{usage} when `path` is "-" and standard input is a terminal: nobody types a binary file.
 void refuseTerminalInput(const std::string& path);
 
-/// All of standard input. Throws Error{io}.
-std::vector<std::byte> readStandardInput();
+/// All bytes of a file; "-" is standard input. Throws Error{io}.
+std::vector<std::byte> readWholeFile(const std::string& path);
 
 }  // namespace bvhio

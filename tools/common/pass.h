@@ -25,7 +25,7 @@ class Pass {
     /// Adds the tool's provenance, writes the container and then the report. `work` names the stage whose
     /// time is the report's `seconds`; `extra` joins the report.
     void finish(BvhxFile& file, const WriteOptions& options, const std::string& work,
-                const Report& extra = {});
+                const Report& extra = Report::object());
 
   private:
     CommandLine& line_;

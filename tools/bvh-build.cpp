@@ -1,0 +1,64 @@
+// bvh-build: from a scene to a container.
+#include "build/builders.h"
+#include "common/input.h"
+#include "common/pass.h"
+#include "common/run_tool.h"
+#include "scene/import.h"
+
+using namespace bvhio;
+
+namespace {
+
+const ToolInfo kTool = {
+    "bvh-build",
+    "Builds a BVH over the triangles of a scene: glTF, GLB, OBJ, PLY, STL or Draco.",
+    "  bvh-build scene.glb -o scene.bvhx\n"
+    "  bvh-build scene.ply --builder median | bvh-stats\n",
+};
+
+const std::vector<NamedValue> kOnDegenerate = {
+    {"keep", "they can't be hit, but keep their ids"},
+    {"drop", "leave them out; the others keep their ids"},
+    {"error", "refuse the scene"},
+};
+
+OnDegenerate onDegenerate(std::string_view name) {
+    return name == "drop" ? OnDegenerate::drop : name == "error" ? OnDegenerate::error : OnDegenerate::keep;
+}
+
+Scene import(const std::string& input, const ImportOptions& options) {
+    const std::string name = input == "-" ? "standard input" : input;
+    const ImportedScene imported = input == "-" ? importBytes(readWholeFile(input), name, ".") : importFile(input);
+    try {
+        return flatten(imported, options);
+    } catch (const Error& error) {
+        throw Error(error.kind(), name + ": " + error.what());  // meshes don't know their file
+    }
+}
+
+ExitCode build(CommandLine& line) {
+    BuildOptions options;
+    std::string builder(builders()[0].name), degenerate(kOnDegenerate[0].name);
+    line.choice("--builder", builder, namedValues(builders()), "how the tree is built");
+    line.number("--bins", options.bins, 0, 256, "bins an axis, for builders that bin; 0: the builder's own");
+    line.number("--max-leaf-size", options.maxLeafSize, 1, kMaxLeafSize, "most triangles in a leaf");
+    line.number("--traversal-cost", options.costs.traversal, 0, 1e6f, "SAH cost of visiting an inner node");
+    line.number("--intersection-cost", options.costs.intersection, 0, 1e6f,
+                "SAH cost of a ray-triangle test");
+    line.choice("--on-degenerate", degenerate, kOnDegenerate, "what to do with triangles of zero area");
+    Pass pass(line, "SCENE", "the scene's file; - or nothing: standard input");
+
+    pass.stages().begin("import");
+    Scene scene = import(pass.input(), {onDegenerate(degenerate)});
+    pass.stages().begin("build");
+    Bvh bvh = choose(builders(), "builder", builder).function(scene, options);
+    BvhxFile file{std::move(scene), AabbForm(std::move(bvh)), options.costs, {}, {}};
+    pass.finish(file, {}, "build", {{"primitives", file.scene.triangles.size()}});
+    return ExitCode::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return runTool(kTool, argc, argv, build);
+}

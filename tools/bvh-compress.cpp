@@ -1,0 +1,51 @@
+// bvh-compress: chooses how a container's tree is stored, and squeezes its chunks.
+#include "common/pass.h"
+#include "common/run_tool.h"
+#include "file/codecs.h"
+
+using namespace bvhio;
+
+namespace {
+
+const ToolInfo kTool = {
+    "bvh-compress",
+    "Stores a container's tree in another form, and squeezes its chunks.",
+    "  bvh-compress scene.bvhx --codec zstd -o small.bvhx\n"
+    "  bvh-compress scene.bvhx --geometry draco --position-bits 14 -o smaller.bvhx\n",
+};
+
+const std::vector<NamedValue> kGeometries = {
+    {"raw", "vertices and indices as they are"},
+    {"draco", "vertices rounded to a grid; boxes follow, and triangles keep their ids"},
+};
+
+ExitCode compress(CommandLine& line) {
+    std::string form(forms()[0].name), codec = "zstd", geometry(kGeometries[0].name);
+    uint32_t level = 0, positionBits = 16;
+    line.choice("--form", form, namedValues(forms()), "how nodes are stored");
+    line.choice("--codec", codec, namedValues(codecs()), "what squeezes the chunks");
+    line.number("--level", level, 0, 22, "the codec's effort; 0: its own default");
+    line.choice("--geometry", geometry, kGeometries, "how the triangles are stored");
+    line.number("--position-bits", positionBits, 1, 30, "bits a coordinate, for draco");
+    Pass pass(line, "INPUT", "the container; - or nothing: standard input");
+
+    BvhxFile file = pass.read();
+    pass.stages().begin("compress");
+    if (formNameOf(file.bvh) != form) {
+        file.bvh = choose(forms(), "form", form).function(decode(file.bvh));
+        dropChunksThatDoNotSurvive(file, Change::reordered);
+    }
+    WriteOptions options;
+    options.codec = codec;
+    options.codecLevel = int(level);
+    options.geometry = geometry == "draco" ? GeometryEncoding::draco : GeometryEncoding::raw;
+    options.dracoPositionBits = int(positionBits);
+    pass.finish(file, options, "compress");
+    return ExitCode::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return runTool(kTool, argc, argv, compress);
+}

@@ -1,0 +1,172 @@
+// bvh-stats: tells what a container holds, checks it, and compares it with another.
+#include <filesystem>
+
+#include "common/input.h"
+#include "common/query.h"
+#include "common/run_tool.h"
+#include "file/check.h"
+#include "file/chunks.h"
+#include "stats/diff.h"
+#include "stats/stats_report.h"
+
+using namespace bvhio;
+
+namespace {
+
+const ToolInfo kTool = {
+    "bvh-stats",
+    "Tells what a container holds: its tree, its sizes, its history; checks it, and compares it with "
+    "another.",
+    "  bvh-build scene.glb | bvh-stats\n"
+    "  bvh-stats scene.bvhx --check\n"
+    "  bvh-stats before.bvhx --diff after.bvhx\n",
+};
+
+/// The input, which is looked at more than once: what comes through a pipe is kept.
+struct Input {
+    explicit Input(const std::string& path_)
+        : path(path_),
+          isPipe(!std::filesystem::is_regular_file(path_)),
+          name(path == "-" ? "standard input" : path) {
+        if (isPipe) bytes = readWholeFile(path);
+    }
+    BvhxFile read() const { return isPipe ? readBvhx(bytes, name) : readBvhx(path); }
+    std::vector<Finding> check() const { return isPipe ? checkBytes(bytes, name) : checkFile(path); }
+    ChunkList chunks() const { return isPipe ? listChunks(bytes, name) : listChunks(path); }
+    uint64_t size() const { return isPipe ? bytes.size() : std::filesystem::file_size(path); }
+
+    std::string path;
+    bool isPipe;
+    std::string name;
+    std::vector<std::byte> bytes;
+};
+
+std::string flagNames(uint32_t flags) {
+    std::string names = flags & kCritical ? "critical" : "ancillary";
+    if (flags & kSurvivesReorder) names += ", survives reorder";
+    if (flags & kSurvivesTopologyChange) names += ", survives topology change";
+    return names;
+}
+
+Report chunksReport(const ChunkList& list) {
+    Report chunks = Report::array();
+    for (const ListedChunk& chunk : list.chunks)
+        chunks.push_back({{"type", chunk.type},
+                          {"name", chunk.name},
+                          {"offset", chunk.header.offset},
+                          {"raw_size", chunk.header.rawSize},
+                          {"stored_size", chunk.header.storedSize},
+                          {"codec", chunk.codec},
+                          {"checksum", chunk.checksumMatches ? "right" : "WRONG"},
+                          {"flags", flagNames(chunk.header.flags)}});
+    return chunks;
+}
+
+Report findingsReport(const std::vector<Finding>& findings) {
+    Report report = Report::array();
+    for (const Finding& finding : findings)
+        report.push_back({{"id", uint32_t(finding.id)},
+                          {"severity", finding.severity == Finding::Severity::error ? "error" : "warning"},
+                          {"message", finding.message},
+                          {"chunk", finding.chunk},
+                          {"offset", finding.offset == kNowhere ? Report() : Report(finding.offset)}});
+    return report;
+}
+
+Report provenanceReport(const BvhxFile& file) {
+    Report report = Report::array();
+    for (const ProvenanceEntry& entry : file.provenance) {
+        const Report options = Report::parse(entry.options, nullptr, false);
+        report.push_back({{"tool", entry.tool},
+                          {"version", entry.version},
+                          {"options", options.is_discarded() ? Report(entry.options) : options}});
+    }
+    return report;
+}
+
+/// What each part takes in the file; `other` is provenance, unknown chunks, and the headers and padding of
+/// all.
+Report storedBytes(const ChunkList& list, uint64_t fileSize) {
+    uint64_t nodes = 0, primitives = 0, geometry = 0;
+    for (const ListedChunk& chunk : list.chunks) {
+        const uint32_t type = chunk.header.type;
+        if (type == kPrimitivesType)
+            primitives += chunk.header.storedSize;
+        else if (type == kVerticesType || type == kTrianglesType || type == kDracoType ||
+                 type == kGeometriesType || type == kSourcePrimitivesType || type == kSceneType)
+            geometry += chunk.header.storedSize;
+        else if (findChunkKind(type) && type != kProvenanceType && type != kEndType)
+            nodes += chunk.header.storedSize;  // the chunks of whichever form
+    }
+    return {{"nodes", nodes},
+            {"primitives", primitives},
+            {"geometry", geometry},
+            {"other", fileSize - nodes - primitives - geometry}};
+}
+
+Report summary(const BvhxFile& file, const Input& input, bool withEpo) {
+    StatsOptions options{.costs = file.costs};
+    if (!withEpo) options.epo.reset();
+    Report report = statsReport(file.scene, file.bvh, options);
+    report["bytes"]["file"] = input.size();
+    report["stored_bytes"] = storedBytes(input.chunks(), input.size());
+    report["version"] = std::to_string(kFormatMajor) + "." + std::to_string(kFormatMinor);
+    report["provenance"] = provenanceReport(file);
+    return report;
+}
+
+ExitCode stats(CommandLine& line) {
+    bool check = false, chunks = false, provenance = false, noEpo = false;
+    std::string other;
+    line.flag("--check", check, "check the file; print numbered findings, exit 7 when one is an error");
+    line.flag("--chunks", chunks, "list the file's chunks");
+    line.flag("--provenance", provenance, "list the tools that made the file");
+    line.text("--diff", "OTHER", other, "tell what sets the files apart; exit 7 when anything does");
+    line.flag("--no-epo", noEpo, "leave out epo, which takes longest");
+    QueryTool query(line);
+    query.stages().begin("read");
+    const Input input(query.input());
+
+    // Damage must not keep --check and --chunks from telling what they can: the content is read after them.
+    bool broken = false;
+    std::optional<Finding> stop;
+    Report asked = Report::object();
+    if (check) {
+        const std::vector<Finding> findings = input.check();
+        asked["findings"] = findingsReport(findings);
+        for (const Finding& finding : findings) broken |= finding.severity == Finding::Severity::error;
+    }
+    if (chunks) {
+        const ChunkList list = input.chunks();
+        asked["chunks"] = chunksReport(list);
+        if (!check) stop = list.stop;
+    }
+    bool different = false;
+    const bool summaryAlone = asked.empty() && !provenance && other.empty();
+    if (!broken && !stop && (query.isJson() || summaryAlone || provenance || !other.empty())) {
+        const BvhxFile file = input.read();
+        if (provenance) asked["provenance"] = provenanceReport(file);
+        if (!other.empty()) {
+            const BvhxFile second = readBvhx(other);
+            asked["diff"] =
+                diffReport({file.scene, file.bvh, file.costs}, {second.scene, second.bvh, second.costs});
+            different = !asked["diff"]["differences"].empty();
+        }
+        query.stages().begin("measure");
+        if (query.isJson() || summaryAlone) {
+            Report report = summary(file, input, !noEpo);
+            report.update(asked);
+            asked = std::move(report);
+        }
+    }
+    query.print(!query.isJson() && asked.size() == 1 && asked.contains("diff") ? asked["diff"] : asked);
+    query.finish();
+    if (stop) throw FindingError(input.name, *stop);
+    return broken || different ? ExitCode::findings : ExitCode::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return runTool(kTool, argc, argv, stats);
+}

@@ -1,0 +1,193 @@
+// bvh-trace: shoots rays through a container, and counts and times what they cost.
+#include <chrono>
+
+#include "common/input.h"
+#include "common/query.h"
+#include "common/run_tool.h"
+#include "core/parallel.h"
+#include "stats/size_stats.h"
+#include "stats/stats_report.h"
+#include "trace/compare.h"
+#include "trace/find_camera.h"
+#include "trace/heat_map.h"
+#include "trace/ray_file.h"
+#include "trace/ray_order.h"
+#include "trace/ray_sets.h"
+#include "trace/shaded_image.h"
+#include "trace/trace_report.h"
+
+using namespace bvhio;
+
+namespace {
+
+const ToolInfo kTool = {
+    "bvh-trace",
+    "Shoots rays through a container; counts what they cost and times them, in runs apart.",
+    "  bvh-trace scene.bvhx --rays diffuse --count 1000000\n"
+    "  bvh-trace scene.bvhx --resolution 1920x1080 --image scene.png --heatmap cost.png\n"
+    "  bvh-trace scene.bvhx --rays random --compare other.bvhx\n",
+};
+
+struct Options {
+    std::string rays, rayOrder, resolution, camera, saveRays, hits, image, heatmap, compare;
+    RaySetOptions set;
+    bool anyHit = false;
+    uint32_t repeat = 3;
+    float tolerance = 0;
+};
+
+void declare(CommandLine& line, Options& options) {
+    options.rays = raySets()[0].name;
+    options.rayOrder = rayOrders()[0].name;
+    options.resolution =
+        std::to_string(options.set.resolution.width) + "x" + std::to_string(options.set.resolution.height);
+    line.choiceOrFile("--rays", options.rays, namedValues(raySets()), "FILE.rays", "which rays");
+    line.number("--count", options.set.count, 0, kMaxRays, "at most so many rays; 0: as --resolution says");
+    line.text("--resolution", "WxH", options.resolution, "pixels of the picture that rays start from");
+    line.number("--seed", options.set.seed, 0, UINT64_MAX, "of rays that are random");
+    line.text("--camera", "EYE:TARGET[:FOV[:UP]]", options.camera,
+              "points as x,y,z; none: found from the scene");
+    line.flag("--any-hit", options.anyHit, "ask for any hit, not the closest");
+    line.choice("--ray-order", options.rayOrder, namedValues(rayOrders()),
+                "the order in which rays are traced");
+    line.number("--repeat", options.repeat, 1, 1000, "timed runs, of which the fastest counts");
+    line.text("--compare", "OTHER.bvhx", options.compare, "trace this too; exit 7 when hits differ");
+    line.number("--tolerance", options.tolerance, 0, 1, "t may differ by this part of it, in --compare");
+    line.text("--save-rays", "FILE.rays", options.saveRays, "write the rays");
+    line.text("--hits", "FILE.hits", options.hits, "write the hits");
+    line.text("--image", "FILE.png", options.image, "draw the scene, shaded");
+    line.text("--heatmap", "FILE.png", options.heatmap, "draw what each pixel's rays cost: NC + TC");
+}
+
+/// Reads a ray file, or makes a set of the table.
+RaySet raysOf(const Options& options, const Scene& scene, const ClosestHits& closestHits) {
+    for (const auto& row : raySets())
+        if (row.name == options.rays) return makeRaySet(options.rays, scene, options.set, closestHits);
+    RaySet set;
+    set.rays = decodeRays(readWholeFile(options.rays), options.rays);
+    set.resolution = options.set.resolution;
+    const double aspect = double(set.resolution.width) / set.resolution.height;
+    set.camera = options.set.camera ? *options.set.camera : findCamera(scene, aspect, closestHits);
+    return set;
+}
+
+/// What the traced rays found, in the order they were given. An any-hit query tells only that there is a hit:
+/// its numbers are 0.
+std::vector<HitRecord> trace(const Tracer& tracer, const Scene& scene, std::span<const Ray> rays,
+                             bool anyHit) {
+    if (!anyHit) {
+        std::vector<Hit> hits(rays.size());
+        tracer.closestHits(rays, hits);
+        return hitRecords(scene, hits);
+    }
+    std::vector<uint8_t> occluded(rays.size());
+    tracer.anyHits(rays, occluded);
+    std::vector<HitRecord> records(rays.size());
+    for (size_t i = 0; i < rays.size(); ++i)
+        if (occluded[i]) records[i] = {0, 0, 0, 0, 0, 0};
+    return records;
+}
+
+/// The fastest of several runs without counting, in seconds.
+double fastestRun(const Tracer& tracer, std::span<const Ray> rays, const Options& options) {
+    std::vector<Hit> hits(options.anyHit ? 0 : rays.size());
+    std::vector<uint8_t> occluded(options.anyHit ? rays.size() : 0);
+    double best = std::numeric_limits<double>::infinity();
+    for (uint32_t i = 0; i < options.repeat; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        options.anyHit ? tracer.anyHits(rays, occluded) : tracer.closestHits(rays, hits);
+        best =
+            std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return best;
+}
+
+/// Compares with what the other container's rays found; prints how they differ.
+bool differs(const Options& options, std::span<const Ray> rays, std::span<const HitRecord> records,
+             Report& report) {
+    const BvhxFile other = readBvhx(options.compare);
+    const std::vector<HitRecord> others =
+        trace(Tracer(other.scene, other.bvh), other.scene, rays, options.anyHit);
+    const HitComparison comparison = compareHits(records, others, {options.tolerance});
+    report["compare"] = {{"differing", comparison.differing},
+                         {"hits_against_misses", comparison.hitsAgainstMisses},
+                         {"max_relative_t", comparison.maxRelativeT}};
+    const auto side = [](const HitRecord& hit) {
+        return hit.isMiss() ? Report("miss")
+                            : Report{{"t", hit.t}, {"geometry", hit.geometry}, {"primitive", hit.primitive}};
+    };
+    for (const HitDifference& difference : comparison.listed)
+        report["compare"]["first"].push_back(
+            {{"ray", difference.ray}, {"here", side(difference.first)}, {"there", side(difference.second)}});
+    return comparison.differing > 0;
+}
+
+ExitCode traceRays(CommandLine& line) {
+    Options options;
+    declare(line, options);
+    QueryTool query(line);
+    options.set.resolution = parseResolution(options.resolution);
+    if (!options.camera.empty()) options.set.camera = parseCamera(options.camera);
+    OptionalOutput raysOutput(options.saveRays), hitsOutput(options.hits), image(options.image),
+        heatmap(options.heatmap);
+
+    const BvhxFile file = query.read();
+    query.stages().begin("prepare");
+    const Tracer tracer(file.scene, file.bvh);
+    const ClosestHits closestHits = [&](std::span<const Ray> rays) {
+        std::vector<Hit> hits(rays.size());
+        tracer.closestHits(rays, hits);
+        return hits;
+    };
+    query.stages().begin("make rays");
+    const RaySet set = raysOf(options, file.scene, closestHits);
+    if (heatmap && set.pixels.empty())
+        throw Error(ErrorKind::usage,
+                    "--heatmap: the rays of '" + options.rays + "' belong to no pixel: use another set");
+    const auto order =
+        choose(rayOrders(), "ray order", options.rayOrder).function(set.rays, options.set.seed);
+    std::vector<Ray> rays(set.rays.size());
+    for (size_t i = 0; i < rays.size(); ++i) rays[i] = set.rays[order[i]];
+
+    query.stages().begin("trace");
+    const double seconds = fastestRun(tracer, rays, options);
+    const std::vector<HitRecord> records = trace(tracer, file.scene, set.rays, options.anyHit);
+    query.stages().begin("count");
+    std::vector<RayCounts> perRay(heatmap ? rays.size() : 0);
+    const TraceMeasurement measurement =
+        tracer.measure(rays, options.anyHit ? Query::any : Query::closest, perRay);
+
+    Report report = {{"rays", rays.size()}, {"hits", measurement.counts.hits}};
+    report["hit_hash"] = hashText(hitHash(records));
+    addTo(report, measurement);
+    report["mrays_per_second"] = seconds > 0 ? double(rays.size()) / seconds / 1e6 : 0;
+    report["threads"] = threadCount();
+    report["seconds"] = seconds;
+    addTo(report, sizeStats(file.scene, file.bvh));
+    report["bytes"]["prepared"] = tracer.preparedBytes();
+    report["form"] = formNameOf(file.bvh);
+    report["camera"] = formatCamera(set.camera);
+    report["options"] = line.options();
+    query.stages().begin("compare");
+    const bool different = !options.compare.empty() && differs(options, set.rays, records, report);
+
+    query.stages().begin("write");
+    if (raysOutput) raysOutput.write(encodeRays(set.rays));
+    if (hitsOutput) hitsOutput.write(encodeHits(records));
+    if (image) image.write(encodePng(shadedImage(file.scene, set.camera, set.resolution, closestHits)));
+    if (heatmap) {
+        std::vector<uint32_t> costs(rays.size());
+        for (size_t i = 0; i < rays.size(); ++i)
+            costs[order[i]] = perRay[i].boxTests + perRay[i].triangleTests;
+        heatmap.write(encodePng(heatMap(costPerPixel(set, costs), set.resolution)));
+    }
+    query.print(report);
+    query.finish();
+    return different ? ExitCode::findings : ExitCode::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return runTool(kTool, argc, argv, traceRays);
+}

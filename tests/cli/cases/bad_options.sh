@@ -1,0 +1,27 @@
+cube | bvh-build -o cube.bvhx
+cube >cube.obj
+code bvh-build cube.obj --builder medain
+code bvh-build cube.obj --bin 3
+code bvh-build cube.obj --bins=x
+code bvh-build cube.obj --bins -3
+code bvh-build cube.obj --bins 4294967296
+code bvh-build cube.obj --max-leaf-size 0
+code bvh-build cube.obj --max-leaf-size 3 --max-leaf-size 0
+code bvh-build cube.obj --traversal-cost nan
+code bvh-build cube.obj --max-leaf-size
+code bvh-build cube.obj --zzzzzzzz
+code bvh-build cube.obj another.obj
+code bvh-build cube.obj -q -v
+code bvh-build cube.obj --report -
+code bvh-build cube.obj -j -1
+code bvh-build cube.obj -j many
+code bvh-restructure cube.bvhx --method best
+code bvh-relayout cube.bvhx --layout dsf
+code bvh-compress cube.bvhx --codec zsdt
+code bvh-compress cube.bvhx --geometry rew
+code bvh-trace cube.bvhx --resolution 64
+code bvh-trace cube.bvhx --camera here
+code bvh-trace cube.bvhx --rays prinary
+code bvh-trace cube.bvhx --rays random --heatmap cost.png
+code bvh-stats cube.bvhx --format xml
+ls

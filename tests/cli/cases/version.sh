@@ -1,0 +1,3 @@
+for tool in build restructure relayout compress trace stats; do
+    bvh-$tool --version
+done

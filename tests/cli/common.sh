@@ -1,0 +1,69 @@
+# What the cases share. Read before each of them.
+
+# A cube of twelve triangles around the origin.
+cube() {
+    cat <<'OBJ'
+v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+f 1 3 2
+f 1 4 3
+f 5 6 7
+f 5 7 8
+f 1 2 6
+f 1 6 5
+f 3 4 8
+f 3 8 7
+f 2 3 7
+f 2 7 6
+f 4 1 5
+f 4 5 8
+OBJ
+}
+
+# A bumpy grid of 2 * $1 * $1 triangles.
+grid() {
+    awk -v n="$1" 'BEGIN {
+        for (y = 0; y <= n; ++y) for (x = 0; x <= n; ++x) print "v", x, (x * 7 + y * 13) % 11 / 8, y
+        for (y = 0; y < n; ++y) for (x = 0; x < n; ++x) {
+            a = y * (n + 1) + x + 1
+            print "f", a, a + 1, a + n + 2
+            print "f", a, a + n + 2, a + n + 1
+        }
+    }'
+}
+
+# Says how a command ended; its output goes on. For cases with several.
+code() {
+    local code=0
+    "$@" || code=$?
+    echo "exit $code"
+}
+
+# Prints values of the JSON object on standard input, by their paths.
+json() {
+    python3 -c '
+import json, sys
+report = json.load(sys.stdin)
+for path in sys.argv[1:]:
+    value = report
+    for key in path.split("."):
+        value = value[key]
+    print(path, value if isinstance(value, str) else json.dumps(value))' "$@"
+}
+
+# Complains about keys that the JSON object in file $1 does not have.
+keys() {
+    python3 -c '
+import json, sys
+report = json.load(open(sys.argv[1]))
+for path in sys.argv[2:]:
+    value = report
+    for key in path.split("."):
+        value = value.get(key) if isinstance(value, dict) and key in value else print(sys.argv[1], "has no", path)' "$@"
+}

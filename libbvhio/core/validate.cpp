@@ -11,6 +11,7 @@
 #include <bit>
 #include <map>
 #include <mutex>
+#include <numeric>
 
 #include "core/parallel.h"
 
@@ -76,6 +77,18 @@ std::string number(uint64_t n) {
     return std::to_string(n);
 }
 
+/// Leaves whose boxes are to be compared with their primitives'.
+struct LeafBatch {
+    std::vector<uint32_t> leaves, primitives;
+    std::vector<Aabb> boxes;
+
+    void add(size_t leaf, std::span<const uint32_t> range) {
+        leaves.push_back(uint32_t(leaf));
+        primitives.insert(primitives.end(), range.begin(), range.end());
+    }
+    bool full() const { return primitives.size() >= 1024; }
+};
+
 struct Validator {
     Validator(const Bvh& bvh, uint32_t count, const PrimitiveBounds& boundsOf, size_t max)
         : nodes(bvh.nodes),
@@ -114,7 +127,7 @@ struct Validator {
                           "the box of node " + number(child) + " leaves that of its parent " + number(i));
     }
 
-    void checkLeaf(size_t i, Findings& found) {
+    void checkLeaf(size_t i, LeafBatch& batch, Findings& found) {
         const Node& leaf = nodes[i];
         if (leaf.primitiveCount > kMaxLeafSize ||
             uint64_t(leaf.first) + leaf.primitiveCount > primitives.size()) {
@@ -135,13 +148,31 @@ struct Validator {
             }
             mark(inLeaf[primitive], uint8_t(1));
         }
-        if (primitiveBounds && !split() && !leaf.bounds.contains(primitiveBounds(range)))
-            found.add(FindingId::primitiveOutsideLeaf, i, "a triangle leaves the box of leaf " + number(i));
+        if (primitiveBounds && !split()) batch.add(i, range);
+    }
+
+    /// Compares the boxes of the batch's leaves with their primitives', and empties it.
+    void checkBoxes(LeafBatch& batch, Findings& found) {
+        if (batch.leaves.empty()) return;
+        batch.boxes.resize(batch.primitives.size());
+        primitiveBounds(batch.primitives, batch.boxes.data());
+        const Aabb* box = batch.boxes.data();
+        for (const uint32_t leaf : batch.leaves) {
+            bool inside = true;
+            for (const Aabb* end = box + nodes[leaf].primitiveCount; box != end; ++box)
+                inside &= nodes[leaf].bounds.contains(*box);
+            if (!inside)
+                found.add(FindingId::primitiveOutsideLeaf, leaf,
+                          "a triangle leaves the box of leaf " + number(leaf));
+        }
+        batch.leaves.clear();
+        batch.primitives.clear();
     }
 
     /// Returns the number of inner nodes in the upper half of the sum and that of leaves in the lower.
     uint64_t checkNodes(size_t begin, size_t end, Findings& found) {
         uint64_t inner = 0, leaves = 0;
+        LeafBatch batch;
         for (size_t i = begin; i < end; ++i) {
             if (i == 1) continue;  // the unused slot beside the root
             const Aabb& box = nodes[i].bounds;
@@ -150,12 +181,14 @@ struct Validator {
                           "the box of node " + number(i) + " is not finite or has min > max");
             if (nodes[i].isLeaf()) {
                 ++leaves;
-                checkLeaf(i, found);
+                checkLeaf(i, batch, found);
+                if (batch.full()) checkBoxes(batch, found);
             } else {
                 ++inner;
                 checkInner(i, found);
             }
         }
+        checkBoxes(batch, found);
         return inner << 32 | leaves;
     }
 
@@ -238,14 +271,15 @@ struct Validator {
 
     /// Leaves of a triangle that several have: each must touch its box, and the hull of all must contain it.
     void checkSplitPrimitives() {
-        std::vector<Aabb> hulls(primitiveCount, Aabb::empty());
+        std::vector<uint32_t> all(primitiveCount);
+        std::iota(all.begin(), all.end(), 0u);
+        std::vector<Aabb> boxes(primitiveCount), hulls(primitiveCount, Aabb::empty());
+        primitiveBounds(all, boxes.data());
         for (size_t i = 0; i < nodes.size(); ++i) {
             const Aabb& box = nodes[i].bounds;
             if (!nodes[i].isLeaf()) continue;
-            for (const uint32_t& primitive : primitives.subspan(nodes[i].first, nodes[i].primitiveCount)) {
-                Aabb common = primitiveBounds({&primitive, 1});
-                common.min = max(common.min, box.min);
-                common.max = min(common.max, box.max);
+            for (const uint32_t primitive : primitives.subspan(nodes[i].first, nodes[i].primitiveCount)) {
+                const Aabb common{max(boxes[primitive].min, box.min), min(boxes[primitive].max, box.max)};
                 if (common.isEmpty())
                     findings.add(
                         FindingId::primitiveOutsideLeaf, i,
@@ -254,7 +288,7 @@ struct Validator {
             }
         }
         for (uint32_t primitive = 0; primitive < primitiveCount; ++primitive)
-            if (!hulls[primitive].contains(primitiveBounds({&primitive, 1})))
+            if (!hulls[primitive].contains(boxes[primitive]))
                 findings.add(FindingId::primitiveOutsideLeaf, kNowhere,
                              "triangle " + number(primitive) + " leaves the boxes of its leaves");
     }

@@ -10,8 +10,9 @@
 
 namespace bvhio {
 
-/// The box of some primitives, given by their indices; each is below the primitive count.
-using PrimitiveBounds = std::function<Aabb(std::span<const uint32_t>)>;
+/// Writes the box of each primitive, given by indices below the primitive count. In batches, so that an
+/// implementation can fetch the data of later ones ahead: they lie scattered.
+using PrimitiveBounds = std::function<void(std::span<const uint32_t> primitives, Aabb* boxes)>;
 
 struct Validation {
     std::vector<Finding> findings;  // 30xx and 40xx, by kind, then node; the same for any number of threads

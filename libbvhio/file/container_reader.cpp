@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 
 #include "core/bytes.h"
 #include "core/hash.h"
@@ -32,7 +31,8 @@ ContainerReader::ContainerReader(ByteSource& source) : source_(source) {
     };
     const Bytes bytes = source_.take(kHeaderSize);
     const size_t compared = std::min(bytes.size(), kSignature.size());
-    if (std::memcmp(bytes.data(), kSignature.data(), compared) != 0)
+    const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
+    if (!std::equal(begin, begin + compared, kSignature.begin()))
         failHeader(FindingId::signature, 0, "not a .bvhx file, or damaged by a transfer as text");
     if (bytes.size() < kHeaderSize)
         failHeader(FindingId::cut, bytes.size(),

@@ -208,9 +208,10 @@ Scene flatten(ImportedScene imported, const ImportOptions& options) {
     Scene scene;
     scene.geometries.reserve(imported.instances.size());
     for (size_t i = 0; i < imported.instances.size(); ++i) {
-        const Mesh& mesh = imported.meshes[imported.instances[i].mesh];
-        scene.geometries.push_back(
-            {mesh.name, uint32_t(placements[i].firstTriangle), uint32_t(mesh.triangles.size())});
+        const Instance& instance = imported.instances[i];
+        const Mesh& mesh = imported.meshes[instance.mesh];
+        scene.geometries.push_back({instance.name.empty() ? mesh.name : instance.name,
+                                    uint32_t(placements[i].firstTriangle), uint32_t(mesh.triangles.size())});
     }
     if (imported.instances.size() == 1 && imported.instances[0].transform == kIdentityTransform) {
         // One mesh where it stands, as all files but glTF have it: nothing is copied.

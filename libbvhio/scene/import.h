@@ -31,10 +31,12 @@ struct Mesh {
 using Transform = std::array<double, 12>;
 inline constexpr Transform kIdentityTransform{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
-/// A mesh placed in the world.
+/// A mesh placed in the world. `name` is for a mesh that its file has under several names; when empty, the
+/// mesh's own counts.
 struct Instance {
     uint32_t mesh = 0;
     Transform transform = kIdentityTransform;
+    std::string name = {};
 };
 
 /// A scene as its file has it: shared meshes and where they stand, in scene order (glTF: depth first through
@@ -56,7 +58,7 @@ ImportedScene importFile(const std::filesystem::path& path);
 ImportedScene importBytes(std::span<const std::byte> bytes, const std::string& name,
                           const std::filesystem::path& directory);
 
-/// Places every instance: one Geometry per instance, in order, named after its mesh. Vertices that no
+/// Places every instance: one Geometry per instance, in order, named as Instance says. Vertices that no
 /// triangle uses are left out; transforms are applied in double and rounded once. Pass the imported scene as
 /// an rvalue: one mesh where it stands is moved, not copied. Throws Error: invalid for an index out of range,
 /// a vertex that is used and not finite (mesh and vertex named), no triangles, and as ImportOptions asks;

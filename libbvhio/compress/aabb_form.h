@@ -46,21 +46,22 @@ class AabbForm {
         const Node* pair = bvh_.nodes.data() + cursor.first;
         const RayInterval left = clipToBox(ray, pair[0].bounds, tLimit);
         const RayInterval right = clipToBox(ray, pair[1].bounds, tLimit);
-        const auto entered = [&](int i, const RayInterval& part) {
-            return Entered<Cursor>{{pair[i].first, pair[i].primitiveCount}, part.enter};
-        };
         if (left.isEmpty()) {
             if (right.isEmpty()) return 0;
-            children[0] = entered(1, right);
+            enter(pair[1], right.enter, children[0]);
             return 1;
         }
         if (right.isEmpty()) {
-            children[0] = entered(0, left);
+            enter(pair[0], left.enter, children[0]);
             return 1;
         }
-        const int nearer = right.enter < left.enter;
-        children[nearer] = entered(0, left);
-        children[1 - nearer] = entered(1, right);
+        if (right.enter < left.enter) {
+            enter(pair[1], right.enter, children[0]);
+            enter(pair[0], left.enter, children[1]);
+        } else {
+            enter(pair[0], left.enter, children[0]);
+            enter(pair[1], right.enter, children[1]);
+        }
         return 2;
     }
 
@@ -68,6 +69,12 @@ class AabbForm {
     PrimitiveRange primitiveRange(Cursor cursor) const { return {cursor.first, cursor.primitiveCount}; }
 
   private:
+    static BVHIO_INLINE void enter(const Node& node, float at, Entered<Cursor>& child) {
+        child.cursor.first = node.first;
+        child.cursor.primitiveCount = node.primitiveCount;
+        child.enter = at;
+    }
+
     Bvh bvh_;
 };
 static_assert(Form<AabbForm>);

@@ -1,5 +1,6 @@
 #include "trace/triangle_blocks.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -25,46 +26,42 @@ float errorBound(float size) {
                            : std::numeric_limits<float>::infinity();
 }
 
-void setTriangle(TriangleBlock& block, int lane, const Scene& scene, uint32_t primitive, Vec3 center) {
-    const Triangle triangle = scene.triangle(primitive);
-    const Vec3* vertices[] = {&triangle.v0, &triangle.v1, &triangle.v2};
-    float size = 0;
-    for (int v = 0; v < 3; ++v) {
-        for (int axis = 0; axis < 3; ++axis) block.vertices[v][axis][lane] = (*vertices[v])[axis];
-        const float s = largestComponent(*vertices[v] - center);
-        size = s > size ? s : size;
-    }
-    block.error[lane] = errorBound(size);
-    block.reach[lane] = 4 * largestComponent(bounds(triangle).extent()) * kRoundUp + block.error[lane];
-    block.primitives[lane] = primitive;
-}
-
 }  // namespace
 
 TriangleBlocks::TriangleBlocks(const Scene& scene, std::span<const uint32_t> primitives,
                                std::span<const PrimitiveRange> leaves)
-    : blockOf_(primitives.size()) {
+    : data_(kRowCount * primitives.size() + 3) {  // the last row is read four at a time too
+    std::fill(data_.end() - 3, data_.end(), 0.0f);
     Aabb box = Aabb::empty();
     for (const Vec3& v : scene.vertices) box.extend(v);
     center_ = box.center();
-
-    uint32_t count = 0;
-    for (const PrimitiveRange& leaf : leaves) {
-        blockOf_[leaf.first] = count;
-        count += (leaf.count + 3) / 4;
-    }
-    blocks_.resize(count);
     parallelChunks(leaves.size(), 4096, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            const PrimitiveRange leaf = leaves[i];
-            TriangleBlock* block = &blocks_[blockOf_[leaf.first]];
-            for (uint32_t k = 0; k < (leaf.count + 3) / 4 * 4; ++k) {
-                // Lanes past the end repeat the last triangle; their answers are masked out.
-                const uint32_t entry = leaf.first + (k < leaf.count ? k : leaf.count - 1);
-                setTriangle(block[k / 4], int(k % 4), scene, primitives[entry], center_);
-            }
-        }
+        for (size_t i = begin; i < end; ++i) fill(scene, primitives, leaves[i]);
     });
+}
+
+void TriangleBlocks::fill(const Scene& scene, std::span<const uint32_t> primitives,
+                          const PrimitiveRange& leaf) {
+    float* const block = data_.data() + size_t(kRowCount) * leaf.first;
+    for (uint32_t i = 0; i < leaf.count; ++i) {
+        const auto set = [&](size_t row, float value) { block[row * leaf.count + i] = value; };
+        const uint32_t primitive = primitives[leaf.first + i];
+        const uint32_t biased = primitive + kIndexBias;
+        std::memcpy(block + i, &biased, sizeof biased);
+
+        const Triangle triangle = scene.triangle(primitive);
+        const Vec3* vertices[] = {&triangle.v0, &triangle.v1, &triangle.v2};
+        float size = 0;
+        for (int v = 0; v < 3; ++v) {
+            for (int axis = 0; axis < 3; ++axis)
+                set(size_t(kVertexRows + 3 * v + axis), (*vertices[v])[axis]);
+            const float s = largestComponent(*vertices[v] - center_);
+            size = s > size ? s : size;
+        }
+        const float error = errorBound(size);
+        set(kErrorRow, error);
+        set(kReachRow, 4 * largestComponent(bounds(triangle).extent()) * kRoundUp + error);
+    }
 }
 
 float TriangleBlocks::rayError(Vec3 origin) const {

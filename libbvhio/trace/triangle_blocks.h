@@ -1,58 +1,66 @@
-// Triangles rearranged for tracing: blocks of four, in leaf order, tested four at a time.
+// Triangles rearranged for tracing: a block for each leaf, laid out so that four are tested at once.
 #pragma once
 
+#include <cstdint>
+#include <cstring>
 #include <span>
-#include <vector>
 
 #include "compress/form_concept.h"
 #include "scene/scene.h"
 
 namespace bvhio {
 
-/// Four triangles, vertex by vertex and axis by axis, and for each what bounds the rounding errors of a test
-/// in float:
+/// The block of a leaf with n triangles: 12 rows of n floats, one column for each triangle, 48 bytes for
+/// each. The block of the leaf that owns primitives[first, first + n) starts at row float 12 * first: no
+/// index to look up, no padding.
 ///
-/// The test of hitTriangle in float, u = 2^-24 being half a unit in the last place, has sheared coordinates
-/// that are off by at most 6.1 u M, where M bounds every coordinate of the triangle relative to the ray's
-/// origin. When hitTriangle accepts, the sheared coordinates are at most 2 L, where L is the longest side of
-/// the triangle's box; so each edge function, a difference of two products of them, is off by at most 12 e L
-/// + 2 e^2 with e = 6.1 u M. `error` and `reach` give a larger bound with two additions and a product: (error
-/// + rayError) * (reach + rayError), error + rayError = 25 u M, reach = 4 L + error. M is split at a centre c
-/// that all blocks share: |v - o| <= |v - c| + |o - c|, the first term in `error`, the second in `rayError`.
-struct alignas(64) TriangleBlock {
-    float vertices[3][3][4];  // [vertex][axis][lane]
-    float error[4], reach[4];
-    uint32_t primitives[4];  // index into Scene::triangles
-
-    Triangle triangle(int lane) const {
-        const auto vertex = [&](int v) {
-            return Vec3{vertices[v][0][lane], vertices[v][1][lane], vertices[v][2][lane]};
-        };
-        return {vertex(0), vertex(1), vertex(2)};
-    }
-};
-static_assert(sizeof(TriangleBlock) == 192);
-
-/// The triangles of every leaf of a form, each leaf starting a block of its own.
+/// A test reads four columns of a row at once, so in the last columns it reads into the next row (and masks
+/// those lanes out). Row 0 holds the triangle indices; they are biased so that, read as floats by mistake,
+/// they are not denormal, since arithmetic on denormals is many times slower on some processors.
+///
+/// The last two rows bound the rounding errors of a test in float. With u = 2^-24, half a unit in the last
+/// place: the sheared coordinates of hitTriangle, computed in float, are off by at most e = 6.1 u M, where M
+/// bounds every coordinate of the triangle relative to the ray's origin. When hitTriangle accepts, they are
+/// at most 2 L, where L is the longest side of the triangle's box; so each edge function, a difference of two
+/// products of them, is off by at most 12 e L + 2 e^2. A larger bound takes two additions and a product:
+/// (error + rayError) * (reach + rayError), with error + rayError = 25 u M and reach = 4 L + error. M is
+/// split at a centre c that all blocks share, |v - o| <= |v - c| + |o - c|: the first term is in `error`, the
+/// second in `rayError`.
 class TriangleBlocks {
   public:
+    enum Row : uint32_t { kIndexRow = 0, kVertexRows = 1, kErrorRow = 10, kReachRow = 11, kRowCount = 12 };
+    static constexpr uint32_t kIndexBias = 0x00800000;
+
     /// `leaves` are the form's leaves, in any order; `primitives` its primitive array.
     TriangleBlocks(const Scene& scene, std::span<const uint32_t> primitives,
                    std::span<const PrimitiveRange> leaves);
 
-    const TriangleBlock* leaf(uint32_t firstPrimitive) const {
-        return blocks_.data() + blockOf_[firstPrimitive];
+    BVHIO_INLINE const float* block(uint32_t firstPrimitive) const {
+        return data_.data() + size_t(kRowCount) * firstPrimitive;
     }
     /// The ray's share of the error bound, for rays from `origin`.
     float rayError(Vec3 origin) const;
-    size_t bytes() const {
-        return blocks_.size() * sizeof(TriangleBlock) + blockOf_.size() * sizeof(uint32_t);
+    size_t bytes() const { return data_.size() * sizeof(float); }
+
+    /// Column i of a block of n triangles.
+    static BVHIO_INLINE Triangle triangle(const float* block, uint32_t n, uint32_t i) {
+        const float* column = block + kVertexRows * size_t(n) + i;
+        const auto vertex = [&](size_t v) {
+            return Vec3{column[3 * v * n], column[(3 * v + 1) * n], column[(3 * v + 2) * n]};
+        };
+        return {vertex(0), vertex(1), vertex(2)};
+    }
+    static BVHIO_INLINE uint32_t primitive(const float* block, uint32_t i) {
+        uint32_t biased;
+        std::memcpy(&biased, block + i, sizeof biased);
+        return biased - kIndexBias;
     }
 
   private:
+    void fill(const Scene& scene, std::span<const uint32_t> primitives, const PrimitiveRange& leaf);
+
     Vec3 center_;
-    AlignedVector<TriangleBlock> blocks_;
-    std::vector<uint32_t> blockOf_;  // by the leaf's first entry in the primitive array
+    AlignedVector<float> data_;
 };
 
 }  // namespace bvhio

@@ -1,7 +1,7 @@
 // Tests the blocks of a leaf, four triangles at a time. Per target, like trace/traverse.h.
 //
 // Four triangles go through the sheared edge functions in float. A lane is dropped only when two of its edge
-// functions have opposite signs beyond any doubt (see TriangleBlock); the few that stay are put to
+// functions have opposite signs beyond any doubt (see TriangleBlocks); the few that stay are put to
 // hitTriangle, which alone decides. So hits are the same, bit for bit, as without blocks.
 #if defined(BVHIO_TRACE_TRIANGLE_BLOCKS_SIMD_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_TRIANGLE_BLOCKS_SIMD_H
@@ -35,19 +35,19 @@ class BlockTriangles {
 
     template <class Query>
     HWY_INLINE bool test(PrimitiveRange range, const PreparedRay& ray, Query& query) const {
-        const TriangleBlock* block = blocks_.leaf(range.first);
-        for (uint32_t left = range.count;; left -= 4, ++block) {
-            uint32_t lanes = candidates(*block, ray);
-            if (left < 4) lanes &= (1u << left) - 1;
+        const float* const block = blocks_.block(range.first);
+        for (uint32_t first = 0; first < range.count; first += 4) {
+            uint32_t lanes = candidates(block + first, range.count, ray);
+            if (range.count - first < 4) lanes &= (1u << (range.count - first)) - 1;
             for (; lanes != 0; lanes &= lanes - 1) {
-                const int lane = std::countr_zero(lanes);
+                const uint32_t i = first + uint32_t(std::countr_zero(lanes));
                 Hit hit;
-                hit.primitive = block->primitives[lane];
-                if (hitTriangle(ray, block->triangle(lane), query.tLimit(), hit) && query.offer(hit))
-                    return true;
+                hit.primitive = TriangleBlocks::primitive(block, i);
+                const Triangle triangle = TriangleBlocks::triangle(block, range.count, i);
+                if (hitTriangle(ray, triangle, query.tLimit(), hit) && query.offer(hit)) return true;
             }
-            if (left <= 4) return false;
         }
+        return false;
     }
 
   private:
@@ -55,31 +55,34 @@ class BlockTriangles {
         Floats x, y;
     };
 
-    HWY_INLINE Sheared shear(const float (&vertex)[3][4], int lane, const PreparedRay& ray) const {
+    /// Vertices in the three rows of `stride` floats that start at `rows`.
+    HWY_INLINE Sheared shear(const float* rows, size_t stride, const PreparedRay& ray) const {
         namespace hn = hwy::HWY_NAMESPACE;
         const D d;
         const auto relative = [&](int axis) HWY_ATTR {
-            return hn::Sub(hn::Load(d, vertex[axis] + lane), hn::Set(d, ray.origin[axis]));
+            return hn::Sub(hn::LoadU(d, rows + size_t(axis) * stride), hn::Set(d, ray.origin[axis]));
         };
         const auto x = relative(ray.axisX), y = relative(ray.axisY), z = relative(ray.axisZ);
         return {hn::Sub(x, hn::Mul(hn::Set(d, shearX_), z)), hn::Sub(y, hn::Mul(hn::Set(d, shearY_), z))};
     }
 
-    /// One bit for each lane that hitTriangle may accept.
-    HWY_INLINE uint32_t candidates(const TriangleBlock& block, const PreparedRay& ray) const {
+    /// One bit for each of four columns that hitTriangle may accept.
+    HWY_INLINE uint32_t candidates(const float* columns, size_t stride, const PreparedRay& ray) const {
         namespace hn = hwy::HWY_NAMESPACE;
         const D d;
         uint32_t dropped = 0;
-        for (int lane = 0; lane < 4; lane += kLanes) {
-            const auto a = shear(block.vertices[0], lane, ray);
-            const auto b = shear(block.vertices[1], lane, ray);
-            const auto c = shear(block.vertices[2], lane, ray);
+        for (int lane = 0; lane < 4; lane += kLanes, columns += kLanes) {
+            const float* const vertices = columns + TriangleBlocks::kVertexRows * stride;
+            const auto a = shear(vertices, stride, ray);
+            const auto b = shear(vertices + 3 * stride, stride, ray);
+            const auto c = shear(vertices + 6 * stride, stride, ray);
             const auto weight0 = hn::Sub(hn::Mul(c.x, b.y), hn::Mul(c.y, b.x));
             const auto weight1 = hn::Sub(hn::Mul(a.x, c.y), hn::Mul(a.y, c.x));
             const auto weight2 = hn::Sub(hn::Mul(b.x, a.y), hn::Mul(b.y, a.x));
             const auto rayError = hn::Set(d, rayError_);
-            const auto error = hn::Mul(hn::Add(hn::Load(d, block.error + lane), rayError),
-                                       hn::Add(hn::Load(d, block.reach + lane), rayError));
+            const auto error =
+                hn::Mul(hn::Add(hn::LoadU(d, columns + TriangleBlocks::kErrorRow * stride), rayError),
+                        hn::Add(hn::LoadU(d, columns + TriangleBlocks::kReachRow * stride), rayError));
             const auto minusError = hn::Neg(error);
             // Each comparison on its own, not of a minimum and a maximum: a NaN must neither hide what the
             // others say nor count.

@@ -1,0 +1,179 @@
+// How fast rays are traced, against Embree's robust mode, on one thread: closest hits of primary and diffuse
+// rays through the binned tree in the aabb form. Runs of both are interleaved and medians taken, so a busy
+// machine hurts both alike. Hits must agree with Embree's except where t differs by less than 1e-5 of itself.
+//
+//     trace_bench [--rounds N] [--resolution N] SCENE...
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "build/builders.h"
+#include "core/parallel.h"
+#include "scene/import.h"
+#include "trace/ray_sets.h"
+#include "trace/trace.h"
+
+namespace {
+
+using namespace bvhio;
+
+/// Processor time of this thread: what else the machine does hardly shows in it.
+double secondsOf(const auto& run) {
+    const auto now = [] {
+        timespec time;
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+        return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
+    };
+    const double start = now();
+    run();
+    return now() - start;
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+/// The scene in Embree: one triangle geometry, robust, default build quality.
+class EmbreeScene {
+  public:
+    explicit EmbreeScene(const Scene& scene)
+        : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
+        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+        const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                 sizeof(Vec3), scene.vertices.size());
+        void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                  sizeof(TriangleIndices), scene.triangles.size());
+        std::memcpy(vertices, scene.vertices.data(), scene.vertices.size() * sizeof(Vec3));
+        std::memcpy(triangles, scene.triangles.data(), scene.triangles.size() * sizeof(TriangleIndices));
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene_, geometry);
+        rtcReleaseGeometry(geometry);
+        rtcCommitScene(scene_);
+    }
+    ~EmbreeScene() {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+    }
+    EmbreeScene(const EmbreeScene&) = delete;
+
+    void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        for (size_t i = 0; i < rays.size(); ++i) {
+            const Ray& r = rays[i];
+            RTCRayHit ray{};
+            ray.ray.org_x = r.origin.x, ray.ray.org_y = r.origin.y, ray.ray.org_z = r.origin.z;
+            ray.ray.dir_x = r.direction.x, ray.ray.dir_y = r.direction.y, ray.ray.dir_z = r.direction.z;
+            ray.ray.tnear = r.tMin, ray.ray.tfar = r.tMax;
+            ray.ray.mask = ~0u;
+            ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            rtcIntersect1(scene_, &context, &ray);
+            hits[i] = ray.hit.geomID == RTC_INVALID_GEOMETRY_ID
+                          ? Hit{}
+                          : Hit{ray.ray.tfar, ray.hit.u, ray.hit.v, ray.hit.primID};
+        }
+    }
+
+  private:
+    RTCDevice device_;
+    RTCScene scene_;
+};
+
+struct Agreement {
+    size_t differentT = 0, onlyOurs = 0, onlyEmbree = 0;
+};
+
+Agreement compareHits(std::span<const Hit> ours, std::span<const Hit> embree) {
+    Agreement agreement;
+    for (size_t i = 0; i < ours.size(); ++i) {
+        if (ours[i].isMiss() != embree[i].isMiss())
+            ++(ours[i].isMiss() ? agreement.onlyEmbree : agreement.onlyOurs);
+        else if (!ours[i].isMiss() && std::abs(ours[i].t - embree[i].t) >= 1e-5f * std::abs(embree[i].t))
+            ++agreement.differentT;
+    }
+    return agreement;
+}
+
+struct Options {
+    int rounds = 5;
+    uint32_t resolution = 1024;
+    std::vector<std::string> scenes;
+};
+
+int run(const Options& options) {
+    const ThreadLimit oneThread(1);
+    const char* const kRaySets[] = {"primary", "diffuse"};
+    double logRatios[2] = {0, 0}, worst[2] = {1e9, 1e9};
+    std::printf("%-22s %-8s %9s %11s %11s %7s   %s\n", "scene", "rays", "count", "ours Mr/s", "Embree Mr/s",
+                "ratio", "other t / hit only by us / only by Embree");
+    for (const std::string& path : options.scenes) {
+        const Scene scene = flatten(importFile(path), {});
+        const EncodedBvh bvh = AabbForm(builders()[0].function(scene, {}));
+        const Tracer tracer(scene, bvh);
+        const EmbreeScene embree(scene);
+        const ClosestHits closestHits = [&](std::span<const Ray> rays) {
+            std::vector<Hit> hits(rays.size());
+            tracer.closestHits(rays, hits);
+            return hits;
+        };
+        for (int set = 0; set < 2; ++set) {
+            RaySetOptions rayOptions;
+            rayOptions.resolution = {options.resolution, options.resolution};
+            const RaySet raySet = makeRaySet(kRaySets[set], scene, rayOptions, closestHits);
+            const std::span<const Ray> rays = raySet.rays;
+            std::vector<Hit> ours(rays.size()), theirs(rays.size());
+            std::vector<double> ourSeconds, theirSeconds;
+            for (int round = 0; round < options.rounds; ++round) {
+                ourSeconds.push_back(secondsOf([&] { tracer.closestHits(rays, ours); }));
+                theirSeconds.push_back(secondsOf([&] { embree.closestHits(rays, theirs); }));
+            }
+            const double ratio = median(theirSeconds) / median(ourSeconds);
+            logRatios[set] += std::log(ratio);
+            worst[set] = std::min(worst[set], ratio);
+            const Agreement agreement = compareHits(ours, theirs);
+            const double millions = double(rays.size()) * 1e-6;
+            const std::string name = path.substr(path.rfind('/') + 1);
+            std::printf("%-22s %-8s %9zu %11.3f %11.3f %7.3f   %zu / %zu / %zu\n", name.c_str(),
+                        kRaySets[set], rays.size(), millions / median(ourSeconds),
+                        millions / median(theirSeconds), ratio, agreement.differentT, agreement.onlyOurs,
+                        agreement.onlyEmbree);
+        }
+    }
+    for (int set = 0; set < 2; ++set)
+        std::printf("%-8s geometric mean of ratios %.3f, worst %.3f\n", kRaySets[set],
+                    std::exp(logRatios[set] / double(options.scenes.size())), worst[set]);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        if (argument == "--rounds" && i + 1 < argc)
+            options.rounds = std::max(1, std::atoi(argv[++i]));
+        else if (argument == "--resolution" && i + 1 < argc)
+            options.resolution = uint32_t(std::max(1, std::atoi(argv[++i])));
+        else
+            options.scenes.push_back(argument);
+    }
+    if (options.scenes.empty()) {
+        std::fprintf(stderr, "trace_bench [--rounds N] [--resolution N] SCENE...\n");
+        return 1;
+    }
+    try {
+        return run(options);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "trace_bench: %s\n", error.what());
+        return 1;
+    }
+}

@@ -8,7 +8,6 @@
 #include "build/binned.h"
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 #include "build/top_down.h"
@@ -18,200 +17,18 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "build/bins_simd.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Four = hn::FixedTag<float, 4>;
-using FourU = hn::FixedTag<uint32_t, 4>;
-using FourV = hn::Vec<Four>;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr uint32_t kGrain = 1 << 13;  // references that a task bins or moves at a time
-constexpr uint32_t kTwoSets = 512;    // references from which two sets of bins pay
-constexpr uint32_t kDefaultBins = 16;
 
-/// A Box in registers.
-#if HWY_MAX_BYTES >= 32
-struct BoxV {
-    using Eight = hn::FixedTag<float, 8>;
-    hn::Vec<Eight> lanes;
-
-    static HWY_INLINE BoxV load(const float* p) { return {hn::Load(Eight(), p)}; }
-    static HWY_INLINE BoxV empty() { return {hn::Set(Eight(), -kInfinity)}; }
-    HWY_INLINE void store(float* p) const { hn::Store(lanes, Eight(), p); }
-    HWY_INLINE FourV low() const { return hn::LowerHalf(Four(), lanes); }
-    HWY_INLINE FourV high() const { return hn::UpperHalf(Four(), lanes); }
-    friend HWY_INLINE BoxV unite(BoxV a, BoxV b) { return {hn::Max(a.lanes, b.lanes)}; }
-};
-#else
-struct BoxV {
-    FourV lows, highs;
-
-    static HWY_INLINE BoxV load(const float* p) { return {hn::Load(Four(), p), hn::Load(Four(), p + 4)}; }
-    static HWY_INLINE BoxV empty() { return {hn::Set(Four(), -kInfinity), hn::Set(Four(), -kInfinity)}; }
-    HWY_INLINE void store(float* p) const {
-        hn::Store(lows, Four(), p);
-        hn::Store(highs, Four(), p + 4);
-    }
-    HWY_INLINE FourV low() const { return lows; }
-    HWY_INLINE FourV high() const { return highs; }
-    friend HWY_INLINE BoxV unite(BoxV a, BoxV b) {
-        return {hn::Max(a.lows, b.lows), hn::Max(a.highs, b.highs)};
-    }
-};
-#endif
-
-/// Maps doubled centroids to bins: bin = round((centroid - origin) * scale - 0.5), by the same operations
-/// wherever it is computed. Adding 2^23 - 0.5 leaves the bin in the low bits of the float.
-struct Grid {
-    alignas(16) float origin[4];
-    alignas(16) float scale[4];
-    static constexpr float kRound = 8388607.5f, kZero = 8388608.0f;
-
-    /// Divides `span`, which contains all doubled centroids; an axis on which it is flat has all in bin 0.
-    Grid(const Box& span, float factor, uint32_t bins) {
-        for (int axis = 0; axis < 4; ++axis) {
-            const float extent = axis < 3 ? span.extent(axis) * factor : 0;
-            origin[axis] = axis < 3 ? 0 - span.negatedMin[axis] * factor : 0;
-            // A little less than all bins, so that rounding cannot reach the one after the last.
-            scale[axis] = extent > 0x1p-100f ? float(bins) * 0.9999f / extent : 0;
-        }
-    }
-};
-
-/// What falls into each bin, axis by axis: the boxes' union, in Box's order, and how many they are.
-struct Bins {
-    alignas(64) float boxes[3 * kMaxBins][8];
-    uint32_t counts[3 * kMaxBins];
-};
-
-/// References whose bin on `axis` is at most `lastLeft` go left.
-struct Split {
-    float cost = kInfinity;
-    int axis = -1;
-    uint32_t lastLeft = 0;
-};
-
-HWY_INLINE const float* floats(const Reference* reference) {
-    return reinterpret_cast<const float*>(reference);
-}
-
-void clearBins(Bins& bins, uint32_t count) {
-    for (uint32_t i = 0; i < 3 * count; ++i) BoxV::empty().store(bins.boxes[i]);
-    std::memset(bins.counts, 0, 3 * count * sizeof bins.counts[0]);
-}
-
-void mergeBins(const Bins& from, uint32_t count, Bins& to) {
-    for (uint32_t i = 0; i < 3 * count; ++i) {
-        unite(BoxV::load(from.boxes[i]), BoxV::load(to.boxes[i])).store(to.boxes[i]);
-        to.counts[i] += from.counts[i];
-    }
-}
-
-/// Adds references to bins. Neighbours in a mesh share bins, and each addition waits for the one before it on
-/// the same bin: so odd references may go to a second set.
-void fillBins(const Reference* references, uint32_t count, const Grid& grid, uint32_t binCount, Bins& even,
-              Bins& odd) {
-    const Four d;
-    const FourU du;
-    alignas(16) static constexpr uint32_t kThree[4] = {~0u, ~0u, ~0u, 0};
-    // The fourth lane holds an integer, a denormal as a float: slow to compute with.
-    const FourV three = hn::BitCast(d, hn::Load(du, kThree));
-    const FourV origin = hn::Load(d, grid.origin), scale = hn::Load(d, grid.scale);
-    const FourV round = hn::Set(d, Grid::kRound), zero = hn::Set(d, Grid::kZero);
-    const auto add = [&](const Reference* reference, Bins& bins) HWY_ATTR {
-        const BoxV box = BoxV::load(floats(reference));
-        const FourV centroid = hn::Sub(hn::And(box.high(), three), hn::And(box.low(), three));
-        const FourV bin = hn::Max(hn::Add(hn::Mul(hn::Sub(centroid, origin), scale), round), zero);
-        alignas(16) uint32_t lanes[4];
-        hn::Store(hn::BitCast(du, bin), du, lanes);
-        for (uint32_t axis = 0; axis < 3; ++axis) {
-            const uint32_t at = axis * binCount + (lanes[axis] & 0xFF);
-            unite(BoxV::load(bins.boxes[at]), box).store(bins.boxes[at]);
-            ++bins.counts[at];
-        }
-    };
-    uint32_t i = 0;
-    for (; i + 1 < count; i += 2) {
-        add(references + i, even);
-        add(references + i + 1, odd);
-    }
-    if (i < count) add(references + i, even);
-}
-
-void fillBins(const Reference* references, uint32_t count, const Grid& grid, uint32_t binCount, Bins& bins) {
-    clearBins(bins, binCount);
-    if (count < kTwoSets) return fillBins(references, count, grid, binCount, bins, bins);
-    Bins odd;
-    clearBins(odd, binCount);
-    fillBins(references, count, grid, binCount, bins, odd);
-    mergeBins(odd, binCount, bins);
-}
-
-/// Half areas of four boxes given by their extents, lane by lane. An empty box has infinite extents and area.
-HWY_INLINE FourV halfAreas(const float (*extents)[4]) {
-    const Four d;
-    FourV x, y, z, unused;
-    hn::LoadInterleaved4(d, extents[0], x, y, z, unused);
-    return hn::Add(hn::Add(hn::Mul(x, y), hn::Mul(y, z)), hn::Mul(z, x));
-}
-
-/// The plane of least SAH over the axes, the first of equals; axis < 0 when all references are in one bin of
-/// each axis.
-Split bestSplit(const Bins& bins, uint32_t binCount, uint32_t count) {
-    const Four d;
-    alignas(16) float lefts[kMaxBins + 3][4],
-        rights[kMaxBins + 3][4];  // extents of both sides of the plane after bin i
-    alignas(16) float leftCounts[kMaxBins + 3];
-    const uint32_t planes = binCount - 1;
-    Split best;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float(*boxes)[8] = bins.boxes + axis * binCount;
-        const uint32_t* counts = bins.counts + axis * binCount;
-        BoxV left = BoxV::empty(), right = BoxV::empty();
-        uint32_t leftCount = 0;
-        for (uint32_t i = 0; i < planes; ++i) {
-            left = unite(left, BoxV::load(boxes[i]));
-            right = unite(right, BoxV::load(boxes[planes - i]));
-            hn::Store(hn::Add(left.low(), left.high()), d, lefts[i]);
-            hn::Store(hn::Add(right.low(), right.high()), d, rights[planes - 1 - i]);
-            leftCount += counts[i];
-            leftCounts[i] = float(leftCount);
-        }
-        for (uint32_t i = planes; i % 4 != 0;
-             ++i) {  // fills the last group with planes that no comparison prefers
-            hn::Store(hn::Set(d, kInfinity), d, lefts[i]);
-            hn::Store(hn::Set(d, kInfinity), d, rights[i]);
-            leftCounts[i] = 0;
-        }
-        // An empty side's cost is infinity times zero: not a number, so less than nothing.
-        FourV bestCosts = hn::Set(d, kInfinity), bestPlanes = hn::Zero(d), plane = hn::Iota(d, 0);
-        for (uint32_t i = 0; i < planes; i += 4) {
-            const FourV leftCounts4 = hn::Load(d, leftCounts + i);
-            const FourV costs =
-                hn::Add(hn::Mul(halfAreas(lefts + i), leftCounts4),
-                        hn::Mul(halfAreas(rights + i), hn::Sub(hn::Set(d, float(count)), leftCounts4)));
-            const auto better = hn::Lt(costs, bestCosts);
-            bestCosts = hn::IfThenElse(better, costs, bestCosts);
-            bestPlanes = hn::IfThenElse(better, plane, bestPlanes);
-            plane = hn::Add(plane, hn::Set(d, 4));
-        }
-        alignas(16) float laneCosts[4], lanePlanes[4];
-        hn::Store(bestCosts, d, laneCosts);
-        hn::Store(bestPlanes, d, lanePlanes);
-        Split ofAxis;
-        for (int lane = 0; lane < 4; ++lane) {
-            const auto lanePlane = uint32_t(lanePlanes[lane]);
-            if (laneCosts[lane] < ofAxis.cost ||
-                (laneCosts[lane] == ofAxis.cost && lanePlane < ofAxis.lastLeft))
-                ofAxis = {laneCosts[lane], axis, lanePlane};
-        }
-        if (ofAxis.cost < best.cost) best = ofAxis;
-    }
-    return best;
+/// Bins by default: many where a node is wide and its choice weighs on all below, few where references are.
+uint32_t defaultBins(uint32_t count) {
+    return count >= 1u << 16 ? 64 : count >= 32 ? 16 : 8;
 }
 
 /// Copies references to the side where they belong, in order.
@@ -233,46 +50,48 @@ void partition(const Reference* references, uint32_t count, const Grid& grid, co
 
 class BinnedSplitter {
   public:
+    /// `bins` per axis; 0 = by the number of references.
     explicit BinnedSplitter(uint32_t bins) : bins_(bins) {}
 
     bool split(const ReferenceArrays& references, const Range& range, Range& left, Range& right,
                bool parallel) const {
         // Boxes without area, on a line or a point, have no SAH to go by.
         if (!(range.bounds.halfArea() > std::numeric_limits<float>::min())) return false;
+        const uint32_t bins = bins_ == 0 ? defaultBins(range.count) : bins_;
         const auto splitOver = [&](const Grid& grid) {
             return parallel ? splitInChunks(references, range, grid, left, right)
                             : splitAlone(references, range, grid, left, right);
         };
-        return splitOver(Grid(range.bounds, 2, bins_)) ||
-               splitOver(Grid(centroidBounds(references.at(range), range.count), 1, bins_));
+        return splitOver(Grid(range.bounds, 2, bins)) ||
+               splitOver(Grid(centroidBounds(references.at(range), range.count), 1, bins));
     }
 
   private:
-    bool splitAlone(const ReferenceArrays& references, const Range& range, const Grid& grid, Range& left,
-                    Range& right) const {
+    static bool splitAlone(const ReferenceArrays& references, const Range& range, const Grid& grid,
+                           Range& left, Range& right) {
         const Reference* source = references.at(range);
         Reference* target = references.opposite(range);
         Bins bins;
-        fillBins(source, range.count, grid, bins_, bins);
-        const Split best = bestSplit(bins, bins_, range.count);
+        fillBins(source, range.count, grid, bins);
+        const Split best = bestSplit(bins, range.count);
         if (best.axis < 0) return false;
         describeSides(bins, best, left, right);
         partition(source, range.count, grid, best, target, target + left.count);
         return true;
     }
 
-    bool splitInChunks(const ReferenceArrays& references, const Range& range, const Grid& grid, Range& left,
-                       Range& right) const {
+    static bool splitInChunks(const ReferenceArrays& references, const Range& range, const Grid& grid,
+                              Range& left, Range& right) {
         const Reference* source = references.at(range);
         Reference* target = references.opposite(range);
         Buffer<Bins> chunks((range.count + kGrain - 1) / kGrain);
         parallelChunks(range.count, kGrain, [&](size_t begin, size_t end) {
-            fillBins(source + begin, uint32_t(end - begin), grid, bins_, chunks[begin / kGrain]);
+            fillBins(source + begin, uint32_t(end - begin), grid, chunks[begin / kGrain]);
         });
         Bins bins;
-        clearBins(bins, bins_);
-        for (size_t i = 0; i < chunks.size(); ++i) mergeBins(chunks[i], bins_, bins);
-        const Split best = bestSplit(bins, bins_, range.count);
+        bins.clear(grid.bins);
+        for (size_t i = 0; i < chunks.size(); ++i) bins.merge(chunks[i]);
+        const Split best = bestSplit(bins, range.count);
         if (best.axis < 0) return false;
         describeSides(bins, best, left, right);
 
@@ -281,7 +100,7 @@ class BinnedSplitter {
         uint32_t lefts = 0;
         for (size_t i = 0; i < chunks.size(); ++i) {
             leftsBefore[i] = lefts;
-            const uint32_t* counts = chunks[i].counts + best.axis * bins_;
+            const uint32_t* counts = chunks[i].counts + best.axis * grid.bins;
             for (uint32_t bin = 0; bin <= best.lastLeft; ++bin) lefts += counts[bin];
         }
         parallelChunks(range.count, kGrain, [&](size_t begin, size_t end) {
@@ -293,9 +112,9 @@ class BinnedSplitter {
     }
 
     /// Bounds and counts of both sides, from the bins.
-    void describeSides(const Bins& bins, const Split& split, Range& left, Range& right) const {
-        const float(*boxes)[8] = bins.boxes + split.axis * bins_;
-        const uint32_t* counts = bins.counts + split.axis * bins_;
+    static void describeSides(const Bins& bins, const Split& split, Range& left, Range& right) {
+        const float(*boxes)[8] = bins.boxes + split.axis * bins.perAxis;
+        const uint32_t* counts = bins.counts + split.axis * bins.perAxis;
         const auto describe = [&](uint32_t begin, uint32_t end, Range& side) HWY_ATTR {
             BoxV bounds = BoxV::empty();
             side.count = 0;
@@ -306,14 +125,14 @@ class BinnedSplitter {
             bounds.store(side.bounds.negatedMin);
         };
         describe(0, split.lastLeft + 1, left);
-        describe(split.lastLeft + 1, bins_, right);
+        describe(split.lastLeft + 1, bins.perAxis, right);
     }
 
     uint32_t bins_;
 };
 
 Bvh build(const Scene& scene, const BuildOptions& options) {
-    const BinnedSplitter splitter(options.bins == 0 ? kDefaultBins : options.bins);
+    const BinnedSplitter splitter(options.bins);
     return TopDownBuild<BinnedSplitter>(scene, options, splitter).build();
 }
 

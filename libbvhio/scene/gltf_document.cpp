@@ -278,7 +278,7 @@ std::vector<GltfBufferSource> takeBuffers(Json& json, const std::string& name) {
 
 }  // namespace
 
-GltfDocument readGltfDocument(std::span<const std::byte> bytes, const std::string& name) {
+GltfDocument readGltfDocument(std::span<const std::byte> bytes, const std::string& name) try {
     GltfDocument document;
     document.name = name;
     const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
@@ -306,6 +306,9 @@ GltfDocument readGltfDocument(std::span<const std::byte> bytes, const std::strin
         fail(name, "the glTF file is damaged: " + error);
     }
     return document;
+} catch (const Json::exception&) {
+    // Such as a number that no double holds, or a list where an object should be.
+    fail(name, "the JSON is not as glTF needs it");
 }
 
 }  // namespace bvhio

@@ -2,6 +2,7 @@
 #include "build/builders.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <chrono>
 #include <cmath>
@@ -19,7 +20,9 @@ struct Case {
     const Builder* builder;
     const test::TestScene* scene;
 };
-void PrintTo(const Case& c, std::ostream* out) { *out << c.builder->name << " " << c.scene->name; }
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.builder->name << " " << c.scene->name;
+}
 
 std::vector<Case> allCases() {
     std::vector<Case> cases;
@@ -122,6 +125,20 @@ TEST_P(LargeScenes, giveTheSameBytesWithAnyNumberOfThreads) {
             EXPECT_TRUE(sameBytes(first, bvh)) << threads << " threads";
         }
     }
+}
+
+TEST_P(LargeScenes, giveTheSameBytesOnEveryProcessor) {
+    const Scene scene = largeSoup();
+    const Bvh expected = GetParam()->function(scene, {});
+    const int64_t supported = hwy::SupportedTargets();
+    for (int64_t targets = supported; targets != 0; targets &= targets - 1) {
+        hwy::SetSupportedTargetsForTest(targets & -targets);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        EXPECT_TRUE(sameBytes(expected, GetParam()->function(scene, {})))
+            << hwy::TargetName(targets & -targets);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 // A split by planes finds none here; one that takes off a primitive at a time would need minutes.

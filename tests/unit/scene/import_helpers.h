@@ -64,8 +64,9 @@ class Binary {
     bool bigEndian_;
 };
 
-/// Imports the input cut at every length and with every bit flipped. Anything but a scene or an Error fails.
-inline void damageEverywhere(const std::string& whole, const std::string& name) {
+/// Imports the input cut at every length and with every bit flipped, or every bitStep-th. Anything but a
+/// scene or an Error fails.
+inline void damageEverywhere(const std::string& whole, const std::string& name, size_t bitStep = 1) {
     const auto attempt = [&](std::string_view text) {
         // A copy of exactly this size, so that a sanitizer sees a read past its end.
         const std::vector<char> exact(text.begin(), text.end());
@@ -76,7 +77,7 @@ inline void damageEverywhere(const std::string& whole, const std::string& name) 
     };
     for (size_t length = 0; length < whole.size(); ++length)
         attempt(std::string_view(whole).substr(0, length));
-    for (size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+    for (size_t bit = 0; bit < 8 * whole.size(); bit += bitStep) {
         std::string damaged = whole;
         damaged[bit / 8] = char(damaged[bit / 8] ^ (1 << bit % 8));
         attempt(damaged);

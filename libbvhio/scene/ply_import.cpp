@@ -1,6 +1,6 @@
 // A reader of our own: of the libraries at hand none reads triangle strips (assimp 5.2 makes one polygon of
 // them, Draco 1.5.5 reports no faces), Draco refuses big-endian files, and both are slow: for kitchen-sized
-// files (1.4 million triangles, 27 MB) assimp takes 451 ms, Draco 1517 ms and this reader 21 ms.
+// files (1.4 million triangles, 27 MB) assimp takes 451 ms, Draco 1517 ms and this reader 40 ms.
 #include <algorithm>
 #include <bit>
 #include <cstring>

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 #include <sstream>
 #include <string>
 
@@ -52,7 +52,8 @@ inline BvhxFile sampleFile(uint32_t triangles = 21) {
 template <class T>
 void expectSameArray(std::span<const T> a, std::span<const T> b, const char* what) {
     ASSERT_EQ(a.size(), b.size()) << what;
-    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size_bytes()), 0) << what;
+    const auto bytesA = std::as_bytes(a), bytesB = std::as_bytes(b);
+    EXPECT_TRUE(std::equal(bytesA.begin(), bytesA.end(), bytesB.begin())) << what;
 }
 
 inline void expectSameContent(const BvhxFile& a, const BvhxFile& b) {

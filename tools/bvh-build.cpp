@@ -28,7 +28,8 @@ OnDegenerate onDegenerate(std::string_view name) {
 
 Scene import(const std::string& input, const ImportOptions& options) {
     const std::string name = input == "-" ? "standard input" : input;
-    const ImportedScene imported = input == "-" ? importBytes(readWholeFile(input), name, ".") : importFile(input);
+    const ImportedScene imported =
+        input == "-" ? importBytes(readWholeFile(input), name, ".") : importFile(input);
     try {
         return flatten(imported, options);
     } catch (const Error& error) {
@@ -51,6 +52,7 @@ ExitCode build(CommandLine& line) {
     pass.stages().begin("import");
     Scene scene = import(pass.input(), {onDegenerate(degenerate)});
     pass.stages().begin("build");
+    options.progress = &pass.stages().progress();
     Bvh bvh = choose(builders(), "builder", builder).function(scene, options);
     BvhxFile file{std::move(scene), AabbForm(std::move(bvh)), options.costs, {}, {}};
     pass.finish(file, {}, "build", {{"primitives", file.scene.triangles.size()}});

@@ -5,6 +5,7 @@
 
 #include "core/bvh.h"
 #include "core/choice.h"
+#include "core/progress.h"
 #include "core/sah_cost.h"
 #include "scene/scene.h"
 
@@ -14,6 +15,7 @@ struct BuildOptions {
     SahCosts costs;
     uint32_t bins = 0;  // per axis, for binned builders; 0 = the builder's own default
     uint32_t maxLeafSize = 4;
+    Progress* progress = nullptr;  // where to count the triangles that are in place, for who watches
 };
 
 /// A builder returns a tree that keeps every invariant of Bvh, whose bytes depend on the scene and the

@@ -14,6 +14,7 @@ struct MedianBuild {
     const std::vector<Aabb>& boxes;
     const std::vector<Vec3>& centroids;
     uint32_t maxLeafSize;
+    Progress* progress;
     AlignedVector<Node>& nodes;
     std::vector<uint32_t>& order;
 
@@ -24,7 +25,10 @@ struct MedianBuild {
             centroidBox.extend(centroids[order[i]]);
         }
         nodes[nodeIndex] = {box, first, count};
-        if (count <= maxLeafSize) return;
+        if (count <= maxLeafSize) {
+            if (progress) progress->add(count);
+            return;
+        }
 
         const int axis = centroidBox.longestAxis();
         const uint32_t half = count / 2;
@@ -62,7 +66,9 @@ Bvh buildMedian(const Scene& scene, const BuildOptions& options) {
 
     AlignedVector<Node> nodes(2);
     nodes[1] = {};
-    MedianBuild{boxes, centroids, options.maxLeafSize, nodes, order}.split(0, 0, uint32_t(count));
+    if (options.progress) options.progress->start(count);
+    MedianBuild{boxes, centroids, options.maxLeafSize, options.progress, nodes, order}.split(0, 0,
+                                                                                             uint32_t(count));
     return {std::move(nodes), std::move(order)};
 }
 

@@ -74,11 +74,13 @@ class TopDownBuild {
         : scene_(scene),
           leafRule_{options.costs.traversal, options.costs.intersection, std::max(options.maxLeafSize, 1u)},
           splitter_(splitter),
+          progress_(options.progress),
           primitives_(scene.triangles.size()) {}
 
     Bvh build() && {
         Range range;
         range.count = uint32_t(scene_.triangles.size());
+        if (progress_) progress_->start(range.count);
         Buffer<Reference> sides[2];
         const bool rescaled = makeReferences(scene_, sides[0], range.bounds);
         sides[1] = Buffer<Reference>(range.count);
@@ -129,6 +131,7 @@ class TopDownBuild {
         part.count = count;
         part.nodeCount = work.nodeCount;
         keepNodes(references_, part, nodes.data());
+        if (progress_) progress_->add(count);
     }
 
     /// Builds the subtree of a range and returns its SAH cost, times areas. It becomes one leaf where that
@@ -168,6 +171,7 @@ class TopDownBuild {
     const Scene& scene_;
     const LeafRule leafRule_;
     const Splitter& splitter_;
+    Progress* const progress_;
     Buffer<uint32_t> primitives_;
     ReferenceArrays references_{};
 };

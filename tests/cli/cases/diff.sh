@@ -1,0 +1,8 @@
+# What sets two files apart: nothing, or the order, the topology, or the geometry.
+grid 4 | bvh-build -o grid.bvhx
+bvh-relayout grid.bvhx | bvh-compress -o same.bvhx
+grid 4 | bvh-build --builder median -o median.bvhx
+grid 5 | bvh-build -o larger.bvhx
+for other in same median larger; do
+    code bvh-stats grid.bvhx --diff $other.bvhx | grep -e verdict -e exit
+done

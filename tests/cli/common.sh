@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # What the cases share. Read before each of them.
 
 # A cube of twelve triangles around the origin.

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# How small does a container get? Stores a scene's container plain, with zstd, and with Draco's lossy geometry besides; checks that
+# zstd changes no hit, and that Draco moves none by more than a thousandth. Usage: smaller_file.sh SCENE     (tools on PATH)
+set -euo pipefail
+
+scene=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+bvh-build "$scene" -o "$work/plain.bvhx"
+bvh-compress "$work/plain.bvhx" --codec zstd -o "$work/zstd.bvhx"
+bvh-compress "$work/plain.bvhx" --codec zstd --geometry draco -o "$work/draco.bvhx"
+for file in plain zstd draco; do
+    printf '%-6s %10d bytes\n' $file "$(stat -c %s "$work/$file.bvhx")"
+done
+
+bvh-stats "$work/plain.bvhx" --diff "$work/zstd.bvhx" | grep verdict
+bvh-trace "$work/plain.bvhx" --compare "$work/zstd.bvhx" >"$work/table" && echo "zstd: the same hits"
+bvh-trace "$work/plain.bvhx" --compare "$work/draco.bvhx" --tolerance 0.001 | grep differing ||
+    echo "draco: so many rays differ by more, at the edges of triangles"

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Two builds of the tools must write the same bytes: containers of every builder, layout, form and codec, and hits of every ray
+# set, over the sample scenes. Also with one thread against all. Usage: same_bytes.sh TOOLS_DIRECTORY OTHER_TOOLS_DIRECTORY
+set -euo pipefail
+
+first=$(realpath "$1") second=$(realpath "$2")
+scenes=$(cd "$(dirname "$0")/.." && pwd)/samples/scenes
+directory=$(mktemp -d)
+trap 'rm -rf "$directory"' EXIT
+
+# The names that an option takes, read from the tool's own help, so that new rows of tables are tested as they come.
+choices() { # TOOL OPTION
+    "$first/$1" --help | awk -v option="$2" '
+        $1 == option { listing = 1; next }
+        /^  -/ { listing = 0 }
+        listing { print $1 }'
+}
+
+run() { # TOOLS THREADS OUTPUT
+    local tools=$1 threads=$2 output=$3 scene name
+    mkdir -p "$output"
+    for scene in "$scenes"/*.{obj,ply,stl,glb,gltf,drc}; do
+        [ -e "$scene" ] || continue
+        name=$output/$(basename "$scene")
+        for builder in "${builders[@]}"; do
+            "$tools/bvh-build" "$scene" --builder "$builder" -j "$threads" -o "$name.$builder.bvhx"
+        done
+        for layout in "${layouts[@]}"; do
+            "$tools/bvh-relayout" "$name.${builders[0]}.bvhx" --layout "$layout" -j "$threads" -o "$name.$layout.bvhx"
+        done
+        for form in "${forms[@]}"; do
+            for codec in "${codecs[@]}"; do
+                "$tools/bvh-compress" "$name.${builders[0]}.bvhx" --form "$form" --codec "$codec" --geometry raw \
+                    -j "$threads" -o "$name.$form.$codec.bvhx"
+            done
+        done
+        "$tools/bvh-compress" "$name.${builders[0]}.bvhx" --geometry draco -j "$threads" -o "$name.draco.bvhx"
+        for rays in "${ray_sets[@]}"; do
+            "$tools/bvh-trace" "$name.${builders[0]}.bvhx" --rays "$rays" --count 20000 -j "$threads" \
+                --save-rays "$name.$rays.rays" --hits "$name.$rays.hits" >/dev/null
+        done
+    done
+}
+
+mapfile -t builders < <(choices bvh-build --builder)
+mapfile -t layouts < <(choices bvh-relayout --layout)
+mapfile -t forms < <(choices bvh-compress --form)
+mapfile -t codecs < <(choices bvh-compress --codec)
+mapfile -t ray_sets < <(choices bvh-trace --rays)
+for list in builders layouts forms codecs ray_sets; do
+    declare -n names=$list
+    [ ${#names[@]} -gt 0 ] || { echo "same_bytes.sh: --help lists no $list"; exit 1; }
+done
+
+run "$first" 0 "$directory/first"
+run "$first" 1 "$directory/one-thread"
+run "$second" 0 "$directory/second"
+diff -r "$directory/first" "$directory/one-thread" && diff -r "$directory/first" "$directory/second"
+count=$(find "$directory/first" -type f | wc -l)
+[ "$count" -gt 0 ] || { echo "same_bytes.sh: no scene found in $scenes"; exit 1; }
+echo "$count files are the same bytes with one thread and all, and from both builds"

@@ -45,8 +45,8 @@ constexpr Aabb unite(Aabb a, const Aabb& b) {
     return a;
 }
 
-/// Half of the surface area of a non-empty box, in units squared, and 0 for an empty one. SAH ratios need only halves.
-/// In double: the areas of boxes 1e-25 or 1e25 across must not underflow or overflow.
+/// Half of the surface area of a non-empty box, in units squared, and 0 for an empty one. SAH ratios need
+/// only halves. In double: the areas of boxes 1e-25 or 1e25 across must not underflow or overflow.
 constexpr double halfArea(const Aabb& b) {
     if (b.isEmpty()) return 0;
     const double x = double(b.max.x) - b.min.x, y = double(b.max.y) - b.min.y, z = double(b.max.z) - b.min.z;

@@ -9,8 +9,8 @@
 
 namespace bvhio {
 
-/// One row: what the command line calls it, one line for --help, and what runs. Command-line choices, help texts, property
-/// tests, fuzzing and benchmarks all loop over such rows, so adding one adds it everywhere.
+/// One row: what the command line calls it, one line for --help, and what runs. Command-line choices, help
+/// texts, property tests, fuzzing and benchmarks all loop over such rows, so adding one adds it everywhere.
 template <class Function>
 struct Choice {
     std::string_view name;
@@ -29,9 +29,11 @@ std::string listNames(std::span<const Choice<Function>> table) {
     return names;
 }
 
-/// The row called `name`; throws Error{usage} that lists the names when there is none. `what` names the kind of row ("builder").
+/// The row called `name`; throws Error{usage} that lists the names when there is none. `what` names the kind
+/// of row ("builder").
 template <class Function>
-const Choice<Function>& choose(std::span<const Choice<Function>> table, std::string_view what, std::string_view name) {
+const Choice<Function>& choose(std::span<const Choice<Function>> table, std::string_view what,
+                               std::string_view name) {
     for (const auto& row : table)
         if (row.name == name) return row;
     throw Error(ErrorKind::usage,

@@ -15,8 +15,9 @@ enum class ErrorKind : int {
     unsupported = 5,  // valid input that this version cannot read
 };
 
-/// Thrown for bad data from outside, never for bugs. The message is one line without the tool's name or a full stop: what is
-/// wrong, where (file, chunk and byte, mesh and vertex), and what to do about it where that is known.
+/// Thrown for bad data from outside, never for bugs. The message is one line without the tool's name or a
+/// full stop: what is wrong, where (file, chunk and byte, mesh and vertex), and what to do about it where
+/// that is known.
 class Error : public std::runtime_error {
   public:
     Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}

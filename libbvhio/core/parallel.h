@@ -14,8 +14,9 @@ namespace bvhio {
 /// Work that forks and joins: run(f) starts f, wait() joins them all.
 using TaskGroup = tbb::task_group;
 
-/// Calls body(begin, end) over disjoint chunks that cover [0, count), each of at most `grain` items. The chunk borders depend on
-/// count and grain alone, never on the number of threads, so results merged in chunk order are the same for any thread count.
+/// Calls body(begin, end) over disjoint chunks that cover [0, count), each of at most `grain` items. The
+/// chunk borders depend on count and grain alone, never on the number of threads, so results merged in chunk
+/// order are the same for any thread count.
 template <class Body>
 void parallelChunks(size_t count, size_t grain, const Body& body) {
     if (count == 0) return;
@@ -34,7 +35,8 @@ class ThreadLimit {
   public:
     explicit ThreadLimit(size_t threads) {
         if (threads > 0)
-            control_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+            control_ =
+                std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
     }
 
   private:

@@ -5,7 +5,8 @@
 
 namespace bvhio {
 
-/// PCG32 (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms"), XSH-RR output.
+/// PCG32 (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms"), XSH-RR
+/// output.
 class Random {
   public:
     explicit Random(uint64_t seed, uint64_t stream = 0) : increment_(stream * 2 + 1) {

@@ -1,4 +1,5 @@
-// What passes and tools say about their work, as an ordered JSON object: the only header that knows the JSON library.
+// What passes and tools say about their work, as an ordered JSON object: the only header that knows the JSON
+// library.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -9,7 +9,8 @@ double sahCost(const Bvh& bvh, const SahCosts& costs) {
         if (i == 1) continue;  // the unused slot beside the root
         const Node& node = bvh.nodes[i];
         const double probability = rootArea > 0 ? halfArea(node.bounds) / rootArea : 1.0;
-        cost += probability * (node.isLeaf() ? double(costs.intersection) * node.primitiveCount : costs.traversal);
+        cost += probability *
+                (node.isLeaf() ? double(costs.intersection) * node.primitiveCount : costs.traversal);
     }
     return cost;
 }

@@ -12,8 +12,8 @@ struct SahCosts {
     bool operator==(const SahCosts&) const = default;
 };
 
-/// The SAH cost of a tree: (traversal * sum of inner areas + intersection * sum of leaf areas * primitives) / root area.
-/// When the root has no area (all geometry on one point or line), every area ratio counts as 1.
+/// The SAH cost of a tree: (traversal * sum of inner areas + intersection * sum of leaf areas * primitives) /
+/// root area. When the root has no area (all geometry on one point or line), every area ratio counts as 1.
 double sahCost(const Bvh& bvh, const SahCosts& costs);
 
 }  // namespace bvhio

@@ -1,4 +1,5 @@
-// Immutable arrays that are either owned or a view into a mapped file, and the aligned vectors that fill them.
+// Immutable arrays that are either owned or a view into a mapped file, and the aligned vectors that fill
+// them.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +11,9 @@
 
 namespace bvhio {
 
-/// Aligns to cache lines, so that a sibling pair of 32-byte nodes never straddles two, and leaves plain data uninitialised
-/// on resize: builders overwrite every element, and clearing 100 MB first costs more than some of their passes.
+/// Aligns to cache lines, so that a sibling pair of 32-byte nodes never straddles two, and leaves plain data
+/// uninitialised on resize: builders overwrite every element, and clearing 100 MB first costs more than some
+/// of their passes.
 template <class T>
 struct AlignedAllocator {
     using value_type = T;
@@ -25,33 +27,39 @@ struct AlignedAllocator {
     void deallocate(T* p, size_t) { ::operator delete(p, kAlignment); }
     template <class U>
     void construct(U* p) {
-        ::new (static_cast<void*>(p)) U;  // default-initialise: no clearing for plain data without member initialisers
+        ::new (static_cast<void*>(p))
+            U;  // default-initialise: no clearing for plain data without member initialisers
     }
     template <class U, class... Args>
     void construct(U* p, Args&&... args) {
         ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
     }
     template <class U>
-    bool operator==(const AlignedAllocator<U>&) const { return true; }
+    bool operator==(const AlignedAllocator<U>&) const {
+        return true;
+    }
 };
 
 template <class T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
-/// A read-only array that shares ownership of its storage: a vector that was moved in, or a mapped file. Copies are cheap.
+/// A read-only array that shares ownership of its storage: a vector that was moved in, or a mapped file.
+/// Copies are cheap.
 template <class T>
 class SharedArray {
   public:
     SharedArray() = default;
     /// Takes over a vector; nothing is copied.
     template <class Allocator>
-    SharedArray(std::vector<T, Allocator>&& storage) {  // NOLINT: implicit on purpose, `bvh.nodes = std::move(vector)`
+    SharedArray(std::vector<T, Allocator>&&
+                    storage) {  // NOLINT: implicit on purpose, `bvh.nodes = std::move(vector)`
         auto owner = std::make_shared<std::vector<T, Allocator>>(std::move(storage));
         view_ = {owner->data(), owner->size()};
         owner_ = std::move(owner);
     }
     /// A view of memory that `owner` keeps alive.
-    SharedArray(std::shared_ptr<const void> owner, std::span<const T> view) : owner_(std::move(owner)), view_(view) {}
+    SharedArray(std::shared_ptr<const void> owner, std::span<const T> view)
+        : owner_(std::move(owner)), view_(view) {}
 
     const T* data() const { return view_.data(); }
     size_t size() const { return view_.size(); }

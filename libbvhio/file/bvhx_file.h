@@ -45,9 +45,11 @@ struct WriteOptions {
     int dracoPositionBits = 16;
 };
 
-/// Reads a file: mapped when `path` is a regular file, so that arrays stored with codec none are used in place; "-" is standard
-/// input. A mapped file must not be cut or overwritten in place while the object lives: the kernel would end the process with
-/// SIGBUS, as with any map. Replacing it by renaming another over it, as the tools do, is safe. Throws Error: io, invalid (damaged; chunk and byte named), unsupported (newer major version, unknown critical chunk).
+/// Reads a file: mapped when `path` is a regular file, so that arrays stored with codec none are used in
+/// place; "-" is standard input. A mapped file must not be cut or overwritten in place while the object
+/// lives: the kernel would end the process with SIGBUS, as with any map. Replacing it by renaming another
+/// over it, as the tools do, is safe. Throws Error: io, invalid (damaged; chunk and byte named), unsupported
+/// (newer major version, unknown critical chunk).
 BvhxFile readBvhx(const std::filesystem::path& path);
 /// Reads from memory, copying what it keeps.
 BvhxFile readBvhx(std::span<const std::byte> bytes, const std::string& name);
@@ -58,8 +60,9 @@ void writeBvhx(std::ostream& out, const BvhxFile& file, const WriteOptions& opti
 /// What a pass did to a tree.
 enum class Change { reordered, topologyChanged };
 
-/// Drops the unknown chunks that are wrong after such a pass, as their flags say; a pass calls it before it writes. A change of
-/// form counts as a reorder; a restructured tree may be reordered too, so a pass that does both calls it for both.
+/// Drops the unknown chunks that are wrong after such a pass, as their flags say; a pass calls it before it
+/// writes. A change of form counts as a reorder; a restructured tree may be reordered too, so a pass that
+/// does both calls it for both.
 void dropChunksThatDoNotSurvive(BvhxFile& file, Change change);
 
 }  // namespace bvhio

@@ -1,6 +1,6 @@
-// A reader of our own: Draco 1.5.5 reads binary STL only, merges vertices, reads a file that is cut short as if
-// it were whole, and takes 486 ms for 83,750 triangles; assimp 5.2 takes 12 ms, but makes one mesh per solid.
-// This reader takes 1 ms.
+// A reader of our own: Draco 1.5.5 reads binary STL only, merges vertices, reads a file that is cut short as
+// if it were whole, and takes 486 ms for 83,750 triangles; assimp 5.2 takes 12 ms, but makes one mesh per
+// solid. This reader takes 1 ms.
 #include <cstring>
 
 #include "core/error.h"

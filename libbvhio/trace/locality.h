@@ -6,12 +6,11 @@
 // fetch has no predecessor, so rays are independent, and the numbers depend neither on the order of rays nor
 // on threads. Each is measured for T in kLocalitySizes:
 //
-// | name | per ray | what it counts |
-// |---|---|---|
-// | LJC(T) | yes | long jumps: fetches whose offset differs from the previous fetch's by at least T bytes |
-// | CMC(T) | yes | block changes: fetches whose first byte lies in another T-byte block than the previous
-// fetch's (the misses of a cache |        |     | of a single line of T bytes) | | WSS(T) | no  | the working
-// set: distinct T-byte blocks in which a fetched record begins, over all rays of the run |
+// LJC(T)  per ray  Long jumps: fetches whose offset differs from the previous fetch's by at least T bytes.
+// CMC(T)  per ray  Block changes: fetches whose first byte lies in another T-byte block than the previous
+//                  fetch's: the misses of a cache of a single line of T bytes.
+// WSS(T)           The working set: distinct T-byte blocks in which a fetched record begins, over all rays
+//                  of the run.
 //
 // The names and the five sizes are the HeavyRT renderer's; it leaves the block where a ray starts out of WSS,
 // we do not.

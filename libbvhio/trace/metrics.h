@@ -4,19 +4,22 @@
 // by their number. Every sum is of integers, so the numbers do not depend on the number of threads, nor on
 // the processor.
 //
-// | name | per ray | what it counts |
-// |---|---|---|
-// | NC   | yes | boxes tested against the ray: 1 for the root, and at each inner node that is stepped through
-// 1 for each child | | LC   | yes | leaves entered, so that their triangles are tested | | TC   | yes |
-// triangles tested: the triangle count of each leaf entered (also when an any-hit query ends within the leaf,
-// and when |      |     | four are tested at once) | | AOC  | yes | arithmetic operations of the box tests:
-// subtractions and multiplications, plus comparisons, minima and maxima. A |      |     | full box takes 12 +
-// 12: 6 differences, 6 products; 6 minima or maxima for near and far, 4 to merge the axes, 2 to |      | |
-// compare with the ray's interval and the nearest hit. Both parts are also reported apart | | BLB  | yes |
-// bytes read: the size of each node record fetched (aabb: 32 for the root, 64 for a pair of siblings), and 52
-// for |      |     | each triangle tested: 4 of the primitive array, 12 of indices, 36 of vertices | | LCV  |
-// no  | the standard deviation over rays of LC: sqrt(E[LC^2] - E[LC]^2) | | records | yes | node records
-// fetched | | SOC  | yes | stack operations: pushes and pops | | SBL  | yes | bytes that those move |
+// NC       per ray  Boxes tested against the ray: 1 for the root, and at each inner node that is stepped
+//                   through 1 for each child.
+// LC       per ray  Leaves entered, so that their triangles are tested.
+// TC       per ray  Triangles tested: the triangle count of each leaf entered (also when an any-hit query
+//                   ends within the leaf, and when four are tested at once).
+// AOC      per ray  Arithmetic operations of the box tests: subtractions and multiplications, plus
+//                   comparisons, minima and maxima. A full box takes 12 + 12: 6 differences, 6 products; 6
+//                   minima or maxima for near and far, 4 to merge the axes, 2 to compare with the ray's
+//                   interval and the nearest hit. Both parts are also reported apart.
+// BLB      per ray  Bytes read: the size of each node record fetched (aabb: 32 for the root, 64 for a pair of
+//                   siblings), and 52 for each triangle tested: 4 of the primitive array, 12 of indices, 36
+//                   of vertices.
+// LCV               The standard deviation over rays of LC: sqrt(E[LC^2] - E[LC]^2).
+// records  per ray  Node records fetched.
+// SOC      per ray  Stack operations: pushes and pops.
+// SBL      per ray  Bytes that those move.
 //
 // Locality (LJC, CMC, WSS) is in trace/locality.h. Sources of the names and of LCV: T. Aila, T. Karras, S.
 // Laine, "On Quality Metrics of Bounding Volume Hierarchies", HPG 2013, and the metrics of the HeavyRT

@@ -13,7 +13,8 @@ TEST(SahCost, matchesHandWorkedTree) {
     nodes[2] = {{{0, 0, 0}, {1, 1, 0}}, 0, 2};
     nodes[3] = {{{0, 0, 1}, {1, 1, 1}}, 2, 1};
     const Bvh bvh{std::move(nodes), std::vector<uint32_t>{0, 1, 2}};
-    EXPECT_DOUBLE_EQ(sahCost(bvh, {.traversal = 2, .intersection = 3}), 2 + 3 * (1.0 / 3) * 2 + 3 * (1.0 / 3) * 1);
+    EXPECT_DOUBLE_EQ(sahCost(bvh, {.traversal = 2, .intersection = 3}),
+                     2 + 3 * (1.0 / 3) * 2 + 3 * (1.0 / 3) * 1);
 }
 
 TEST(SahCost, countsEveryAreaAsOneWhenTheRootHasNone) {

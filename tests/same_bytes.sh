@@ -12,7 +12,7 @@ trap 'rm -rf "$directory"' EXIT
 choices() { # TOOL OPTION
     "$first/$1" --help | awk -v option="$2" '
         $1 == option { listing = 1; next }
-        /^  -/ { listing = 0 }
+        !/^            / { listing = 0 }
         listing { print $1 }'
 }
 

@@ -48,8 +48,8 @@ install() {
         build release && cmake --install build/release --prefix "$prefix" >/dev/null &&
         cmake -S samples/library -B "$prefix/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >/dev/null &&
         cmake --build "$prefix/build" &&
-        "$prefix/bin/bvh-build" samples/scenes/table.obj -o "$prefix/table.bvhx" &&
-        "$prefix/build/shoot" "$prefix/table.bvhx"
+        "$prefix/bin/bvh-build" samples/scenes/courtyard.glb -o "$prefix/scene.bvhx" &&
+        "$prefix/build/shoot" "$prefix/scene.bvhx" | grep '^hit at'
     local code=$?
     rm -rf "$prefix"
     return $code

@@ -1,0 +1,139 @@
+// Loading against rebuilding: a .bvhx file opened, all of it checked, and its first ray answered, against
+// Embree's medium build over triangles that are in memory already. Files lie in the page cache, so the times
+// are the processor's work alone; the break-even says how fast a disk must be for loading to win even when
+// nothing of the file is cached.
+// Usage: load_bench [--rounds N] [--threads N] SCENE...
+
+#include <stdlib.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <optional>
+
+#include "bench_common.h"
+#include "build/builders.h"
+#include "core/parallel.h"
+#include "file/bvhx_file.h"
+#include "trace/trace.h"
+
+namespace {
+
+using namespace bvhio;
+using namespace bvhio::bench;
+namespace fs = std::filesystem;
+
+/// A new directory for files that last as long as it does.
+class TemporaryDirectory {
+  public:
+    TemporaryDirectory() {
+        std::string pattern = (fs::temp_directory_path() / "load_bench.XXXXXX").string();
+        if (!mkdtemp(pattern.data())) throw Error(ErrorKind::io, pattern + ": cannot make this directory");
+        path_ = pattern;
+    }
+    ~TemporaryDirectory() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    TemporaryDirectory(const TemporaryDirectory&) = delete;
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+/// A file with one codec, and how long it takes to load.
+struct Stored {
+    std::string codec;
+    fs::path path;
+    Samples samples;
+};
+
+Stored store(const fs::path& folder, const BvhxFile& content, const std::string& codec) {
+    Stored stored{codec, folder / (codec + ".bvhx"), {}};
+    std::ofstream out(stored.path, std::ios::binary);
+    WriteOptions options;
+    options.codec = codec;
+    writeBvhx(out, content, options);
+    out.close();
+    if (!out) throw Error(ErrorKind::io, stored.path.string() + ": cannot write");
+    return stored;
+}
+
+/// From a corner of the scene's box to the middle of a triangle: a hit for sure.
+Ray firstRay(const Scene& scene, const Bvh& bvh) {
+    const Triangle triangle = scene.triangle(scene.triangles.size() / 2);
+    const Vec3 middle = (triangle.v0 + triangle.v1 + triangle.v2) * (1.0f / 3);
+    Ray ray;
+    ray.origin = bvh.nodes[0].bounds.min;
+    ray.direction = middle - ray.origin;
+    return ray;
+}
+
+void measure(const fs::path& path, int rounds, const EmbreeDevice& device, const Table& table) {
+    const Scene scene = loadScene(path);
+    const Bvh bvh = builders().front().function(scene, {});
+    const Ray ray = firstRay(scene, bvh);
+    const TemporaryDirectory folder;
+    std::vector<Stored> files;
+    for (const char* codec : {"none", "zstd"})
+        files.push_back(store(folder.path(), {scene, AabbForm(bvh), {}, {}, {}}, codec));
+
+    Samples embrees;
+    for (int round = 0; round < rounds; ++round) {
+        {
+            EmbreeScene embree(device, scene);
+            embrees.add(timeOf([&] { embree.commit(); }));
+        }
+        for (Stored& stored : files) {
+            std::optional<BvhxFile> loaded;
+            Hit hit;
+            stored.samples.add(timeOf([&] {
+                loaded = readBvhx(stored.path);
+                const Tracer tracer(loaded->scene, loaded->bvh, TriangleSource::indexed);
+                tracer.closestHits({&ray, 1}, {&hit, 1});
+            }));
+            if (hit.isMiss()) throw Error(ErrorKind::invalid, path.string() + ": the first ray misses");
+        }
+    }
+    for (const Stored& stored : files) {
+        const double bytes = double(fs::file_size(stored.path));
+        const double saved = embrees.medianWall() - stored.samples.medianWall();
+        table.row({path.filename().string() + " " + stored.codec, number(bytes * 1e-6, 1),
+                   number(stored.samples.medianWall() * 1e3, 1), number(embrees.medianWall() * 1e3, 1),
+                   number(stored.samples.medianWall() / embrees.medianWall(), 3),
+                   number(stored.samples.medianProcessor() / embrees.medianProcessor(), 3),
+                   saved > 0 ? number(bytes * 1e-9 / saved, 2) : "none"});
+    }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    int rounds = 15;
+    size_t threads = 2;
+    std::vector<fs::path> paths;
+    for (int i = 1; i < count; ++i) {
+        if (std::strcmp(arguments[i], "--rounds") == 0 && i + 1 < count) {
+            rounds = std::max(1, std::atoi(arguments[++i]));
+        } else if (std::strcmp(arguments[i], "--threads") == 0 && i + 1 < count) {
+            threads = size_t(std::max(1, std::atoi(arguments[++i])));
+        } else {
+            paths.emplace_back(arguments[i]);
+        }
+    }
+    if (paths.empty()) {
+        std::fprintf(stderr, "usage: load_bench [--rounds N] [--threads N] SCENE...\n");
+        return 1;
+    }
+    try {
+        const ThreadLimit limit(threads);
+        const EmbreeDevice device(threads);
+        std::printf("GB/s: a disk faster than this loads the file sooner than Embree rebuilds the tree.\n");
+        const Table table({"scene and codec", "MB", "load ms", "embree ms", "ratio", "cpu ratio", "GB/s"});
+        for (const auto& path : paths) measure(path, rounds, device, table);
+    } catch (const Error& error) {
+        std::fprintf(stderr, "load_bench: %s\n", error.what());
+        return int(error.kind());
+    }
+}

@@ -95,8 +95,8 @@ struct PreparedRay {
         axisZ = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
         axisX = axisZ == 2 ? 0 : axisZ + 1;
         axisY = axisX == 2 ? 0 : axisX + 1;
-        shearX = double(direction[axisX]) / direction[axisZ];
-        shearY = double(direction[axisY]) / direction[axisZ];
+        shearX = double(component(direction, axisX)) / component(direction, axisZ);
+        shearY = double(component(direction, axisY)) / component(direction, axisZ);
     }
 
     bool missesByDefinition() const { return !(tMin <= tMax); }
@@ -155,9 +155,9 @@ inline bool hitTriangle(const PreparedRay& ray, const Triangle& triangle, float 
         double x, y, z;
     };
     const auto relative = [&](const Vec3& v) {
-        return Point{double(v[ray.axisX]) - ray.origin[ray.axisX],
-                     double(v[ray.axisY]) - ray.origin[ray.axisY],
-                     double(v[ray.axisZ]) - ray.origin[ray.axisZ]};
+        return Point{double(component(v, ray.axisX)) - component(ray.origin, ray.axisX),
+                     double(component(v, ray.axisY)) - component(ray.origin, ray.axisY),
+                     double(component(v, ray.axisZ)) - component(ray.origin, ray.axisZ)};
     };
     const Point a = relative(triangle.v0), b = relative(triangle.v1), c = relative(triangle.v2);
     const double ax = a.x - ray.shearX * a.z, ay = a.y - ray.shearY * a.z;
@@ -177,8 +177,9 @@ inline bool hitTriangle(const PreparedRay& ray, const Triangle& triangle, float 
     const Point e{b.x - a.x, b.y - a.y, b.z - a.z}, f{c.x - a.x, c.y - a.y, c.z - a.z};
     const Point normal{e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
     const double height = normal.x * a.x + normal.y * a.y + normal.z * a.z;
-    const double speed = normal.x * ray.direction[ray.axisX] + normal.y * ray.direction[ray.axisY] +
-                         normal.z * ray.direction[ray.axisZ];
+    const double speed = normal.x * component(ray.direction, ray.axisX) +
+                         normal.y * component(ray.direction, ray.axisY) +
+                         normal.z * component(ray.direction, ray.axisZ);
     const float t = float(height / speed) + 0.0f;  // + 0 turns -0 into 0
     if (!(t >= ray.tMin && t <= tLimit && t <= std::numeric_limits<float>::max())) return false;
     if (clipToBox(ray, bounds(triangle), widen(t)).isEmpty()) return false;

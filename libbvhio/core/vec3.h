@@ -17,6 +17,12 @@ struct Vec3 {
 };
 static_assert(sizeof(Vec3) == 12);
 
+/// The component along an axis that only the data knows: one indexed load, where operator[] compares and
+/// branches.
+inline float component(const Vec3& a, int axis) {
+    return (&a.x)[axis];
+}
+
 constexpr Vec3 operator+(Vec3 a, Vec3 b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }

@@ -31,7 +31,7 @@ float errorBound(float size) {
 TriangleBlocks::TriangleBlocks(const Scene& scene, std::span<const uint32_t> primitives,
                                std::span<const PrimitiveRange> leaves)
     : data_(kRowCount * primitives.size() + 3) {  // the last row is read four at a time too
-    std::fill(data_.end() - 3, data_.end(), 0.0f);
+    std::fill_n(data_.data() + data_.size() - 3, 3, 0.0f);
     Aabb box = Aabb::empty();
     for (const Vec3& v : scene.vertices) box.extend(v);
     center_ = box.center();

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "compress/form_concept.h"
+#include "core/buffer.h"
 #include "scene/scene.h"
 
 namespace bvhio {
@@ -60,7 +61,7 @@ class TriangleBlocks {
     void fill(const Scene& scene, std::span<const uint32_t> primitives, const PrimitiveRange& leaf);
 
     Vec3 center_;
-    AlignedVector<float> data_;
+    Buffer<float> data_;
 };
 
 }  // namespace bvhio

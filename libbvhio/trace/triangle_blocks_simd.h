@@ -29,6 +29,8 @@ class BlockTriangles {
   public:
     HWY_INLINE BlockTriangles(const TriangleBlocks& blocks, const PreparedRay& ray)
         : blocks_(blocks),
+          origin_{component(ray.origin, ray.axisX), component(ray.origin, ray.axisY),
+                  component(ray.origin, ray.axisZ)},
           rayError_(blocks.rayError(ray.origin)),
           shearX_(float(ray.shearX)),
           shearY_(float(ray.shearY)) {}
@@ -59,10 +61,11 @@ class BlockTriangles {
     HWY_INLINE Sheared shear(const float* rows, size_t stride, const PreparedRay& ray) const {
         namespace hn = hwy::HWY_NAMESPACE;
         const D d;
-        const auto relative = [&](int axis) HWY_ATTR {
-            return hn::Sub(hn::LoadU(d, rows + size_t(axis) * stride), hn::Set(d, ray.origin[axis]));
+        const auto relative = [&](int axis, float origin) HWY_ATTR {
+            return hn::Sub(hn::LoadU(d, rows + size_t(axis) * stride), hn::Set(d, origin));
         };
-        const auto x = relative(ray.axisX), y = relative(ray.axisY), z = relative(ray.axisZ);
+        const auto x = relative(ray.axisX, origin_.x), y = relative(ray.axisY, origin_.y),
+                   z = relative(ray.axisZ, origin_.z);
         return {hn::Sub(x, hn::Mul(hn::Set(d, shearX_), z)), hn::Sub(y, hn::Mul(hn::Set(d, shearY_), z))};
     }
 
@@ -98,6 +101,7 @@ class BlockTriangles {
     }
 
     const TriangleBlocks& blocks_;
+    Vec3 origin_;  // along axisX, axisY, axisZ
     float rayError_, shearX_, shearY_;
 };
 

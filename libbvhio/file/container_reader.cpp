@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/buffer.h"
 #include "core/bytes.h"
 #include "core/hash.h"
 #include "file/container.h"
@@ -140,10 +141,10 @@ Bytes ContainerReader::payload() {
         fail(FindingId::payloadChecksum, "the payload's checksum does not match: the file is damaged");
     Bytes raw = stored;
     if (header_.codec != 0) {
-        AlignedVector<std::byte> decoded(header_.rawSize);
-        if (!findCodec(header_.codec)->function.decode(stored, decoded))
+        Buffer<std::byte> decoded(header_.rawSize);
+        if (!findCodec(header_.codec)->function.decode(stored, {decoded.data(), decoded.size()}))
             fail(FindingId::codecPayload, "the payload does not decode");
-        raw = std::move(decoded);
+        raw = std::move(decoded).share();
     }
     if (header_.type == kEndType) {
         checkEnd(raw);

@@ -222,7 +222,7 @@ PrimitiveBounds boundsOfTriangles(const Scene& scene) {
     return [&scene](std::span<const uint32_t> primitives, Aabb* boxes) {
         // Indices first, then the vertices that they name: two hops of scattered memory, each asked for well
         // ahead.
-        constexpr size_t kIndicesAhead = 32, kVerticesAhead = 12;
+        constexpr size_t kIndicesAhead = 128, kVerticesAhead = 64;
         const TriangleIndices* triangles = scene.triangles.data();
         const Vec3* vertices = scene.vertices.data();
         for (size_t i = 0; i < primitives.size(); ++i) {

@@ -26,7 +26,7 @@ const ToolInfo kTool = {
 struct Input {
     explicit Input(const std::string& path_)
         : path(path_),
-          isPipe(!std::filesystem::is_regular_file(path_)),
+          isPipe(!isRegularFile(path_)),
           name(path == "-" ? "standard input" : path) {
         if (isPipe) bytes = readWholeFile(path);
     }
@@ -34,6 +34,12 @@ struct Input {
     std::vector<Finding> check() const { return isPipe ? checkBytes(bytes, name) : checkFile(path); }
     ChunkList chunks() const { return isPipe ? listChunks(bytes, name) : listChunks(path); }
     uint64_t size() const { return isPipe ? bytes.size() : std::filesystem::file_size(path); }
+
+    /// False too for what can't be looked at: reading it tells why.
+    static bool isRegularFile(const std::string& path) {
+        std::error_code error;
+        return std::filesystem::is_regular_file(path, error);
+    }
 
     std::string path;
     bool isPipe;

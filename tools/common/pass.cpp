@@ -31,7 +31,7 @@ BvhxFile Pass::read() {
 
 void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string& work, const Report& extra) {
     stages_->begin("write");
-    file.provenance.push_back({line_.tool(), std::string(toolsVersion()), line_.options().dump()});
+    file.provenance.push_back({line_.tool(), std::string(toolsVersion()), jsonText(line_.options())});
     writeBvhx(output_->stream(), file, options);
     output_->commit();
     stages_->end();
@@ -48,7 +48,7 @@ void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string
     report["peak_bytes"] = peakBytes();
     report["options"] = line_.options();
     report.update(extra);
-    report_->stream() << report.dump(2) << '\n';
+    report_->stream() << jsonText(report, 2) << '\n';
     report_->commit();
 }
 

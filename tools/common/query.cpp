@@ -24,7 +24,7 @@ BvhxFile QueryTool::read() {
 
 void QueryTool::print(const Report& report) {
     if (isJson()) {
-        out() << report.dump(2) << '\n';
+        out() << jsonText(report, 2) << '\n';
         return;
     }
     Report shown = report;

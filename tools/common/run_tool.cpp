@@ -1,6 +1,7 @@
 #include "common/run_tool.h"
 
 #include <csignal>
+#include <exception>
 #include <new>
 
 #include "common/log.h"
@@ -23,6 +24,10 @@ int runTool(const ToolInfo& tool, int argc, char** argv, const std::function<Exi
         return int(error.kind());
     } catch (const std::bad_alloc&) {
         logError("out of memory");
+        return int(ExitCode::resources);
+    } catch (const std::exception& error) {
+        // Such as a thread that the system does not grant. Caught so that the outputs' temporary files go.
+        logError(std::string("cannot go on: ") + error.what());
         return int(ExitCode::resources);
     }
 }

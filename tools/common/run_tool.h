@@ -9,8 +9,8 @@
 namespace bvhio {
 
 /// Runs a tool's body, which declares its options on the command line, calls parse() and works. Returns what
-/// main returns: the body's code; 0 after --help or --version; an Error's kind, or 4 when memory ran out,
-/// after one line on standard error.
+/// main returns: the body's code; 0 after --help or --version; an Error's kind, or 4 when memory or another
+/// resource ran out, after one line on standard error.
 int runTool(const ToolInfo& tool, int argc, char** argv, const std::function<ExitCode(CommandLine&)>& body);
 
 }  // namespace bvhio

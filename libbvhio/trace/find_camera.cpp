@@ -1,18 +1,11 @@
 #include "trace/find_camera.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "trace/surface_point.h"
 
 namespace bvhio {
 namespace {
-
-/// Rounds to float; what would overflow becomes the largest float.
-Vec3 clampToFloat(Vec3d p) {
-    constexpr double top = std::numeric_limits<float>::max();
-    return Vec3(Vec3d(std::clamp(p.x, -top, top), std::clamp(p.y, -top, top), std::clamp(p.z, -top, top)));
-}
 
 /// The camera that looks from the side of `toViewer` and just fits every vertex, with a margin: each side of
 /// the view pyramid is pushed outwards as far as some vertex needs, and the eye is where opposite sides meet,

@@ -1,5 +1,6 @@
 #include "trace/ray_sets.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "core/parallel.h"
@@ -129,6 +130,11 @@ RaySet randomLines(const RaySetSource& source) {
     set.rays.resize(count);
     const Vec3d low(source.bounds.min), extent = Vec3d(source.bounds.max) - low;
     const double diagonal = length(extent);
+    // In scenes as large as floats reach, no farther back than leaves origin and hits finite.
+    double largest = 0;
+    for (const Vec3 corner : {source.bounds.min, source.bounds.max})
+        for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::fabs(double(corner[axis])));
+    const double back = std::clamp(kLargestFloat - std::max(largest, diagonal), 0.0, diagonal);
     double area[3] = {extent.y * extent.z, extent.z * extent.x, extent.x * extent.y};
     if (area[0] + area[1] + area[2] == 0)
         area[0] = area[1] = area[2] = 1;  // a line or a point: all sides alike
@@ -143,7 +149,7 @@ RaySet randomLines(const RaySetSource& source) {
             inwards[axis] = far ? -1 : 1;
             const Vec3d point = low + Vec3d{at[0] * extent.x, at[1] * extent.y, at[2] * extent.z};
             const Vec3d direction = cosineDirection({inwards[0], inwards[1], inwards[2]}, random);
-            set.rays[i].origin = Vec3(point - direction * diagonal);
+            set.rays[i].origin = clampToFloat(point - direction * back);
             set.rays[i].direction = Vec3(direction);
         }
     });
@@ -193,7 +199,8 @@ Vec3 lightPosition(const RaySetSource& source) {
     const Vec3d eye(source.camera.eye), center(source.bounds.center());
     const double diagonal = length(Vec3d(source.bounds.max) - Vec3d(source.bounds.min));
     if (!source.bounds.contains({source.camera.eye, source.camera.eye}))
-        return Vec3(center + normalize(normalize(eye - center) + frame.up - frame.right * 0.5) * diagonal);
+        return clampToFloat(center +
+                            normalize(normalize(eye - center) + frame.up - frame.right * 0.5) * diagonal);
     const auto freeWay = [&](Vec3d from, Vec3d direction, double unbounded) {
         Ray ray;
         ray.origin = Vec3(from);
@@ -203,7 +210,7 @@ Vec3 lightPosition(const RaySetSource& source) {
     };
     const Vec3d middle = eye + frame.forward * (0.5 * freeWay(eye, frame.forward, 0.5 * diagonal));
     const Vec3d up = normalize(Vec3d(source.camera.up));
-    return Vec3(middle + up * (0.75 * freeWay(middle, up, 0.5 * diagonal)));
+    return clampToFloat(middle + up * (0.75 * freeWay(middle, up, 0.5 * diagonal)));
 }
 
 }  // namespace bvhio

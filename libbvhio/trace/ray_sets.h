@@ -68,7 +68,7 @@ using RaySetChoice = Choice<RaySet (*)(const RaySetSource&)>;
 /// scene's diagonal.
 /// - diffuse: one cosine-weighted bounce off each primary hit, of any length.
 /// - random: lines through the scene's bounding box, uniform among all lines that meet it; each starts
-/// outside the box.
+/// outside the box, or on it in scenes so large that floats reach no farther.
 ///
 /// Directions have unit length. Rays that leave a surface start on its side that faces the viewer, 2^-19 of
 /// the hit triangle's largest coordinate above it: relative, so that nothing is lost in scenes of any size,

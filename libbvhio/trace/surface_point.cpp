@@ -17,7 +17,7 @@ SurfacePoint surfacePoint(const Scene& scene, const Ray& ray, const Hit& hit) {
     for (int axis = 0; axis < 3; ++axis)
         largest =
             std::fmax(largest, std::fmax(std::fabs(double(box.min[axis])), std::fabs(double(box.max[axis]))));
-    return {Vec3(point + normal * (largest * 0x1p-19)), normal};
+    return {clampToFloat(point + normal * (largest * 0x1p-19)), normal};
 }
 
 Aabb triangleBounds(const Scene& scene) {

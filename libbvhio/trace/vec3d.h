@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "core/vec3.h"
 
@@ -17,6 +18,16 @@ struct Vec3d {
     constexpr explicit Vec3d(Vec3 v) : x(v.x), y(v.y), z(v.z) {}
     constexpr explicit operator Vec3() const { return {float(x), float(y), float(z)}; }
 };
+
+inline constexpr double kLargestFloat = std::numeric_limits<float>::max();
+
+/// Rounds to float; what would overflow becomes the largest float.
+constexpr Vec3 clampToFloat(Vec3d p) {
+    const auto clamp = [](double x) {
+        return x < -kLargestFloat ? -kLargestFloat : x > kLargestFloat ? kLargestFloat : x;
+    };
+    return Vec3(Vec3d(clamp(p.x), clamp(p.y), clamp(p.z)));
+}
 
 constexpr Vec3d operator+(Vec3d a, Vec3d b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};

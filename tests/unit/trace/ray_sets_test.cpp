@@ -174,6 +174,22 @@ TEST(RaySets, randomLinesCrossTheBoxEvenly) {
     EXPECT_NEAR(crossed / 40000.0, halfArea(inner) / halfArea({{0, 0, 0}, {2, 4, 8}}), 0.006);
 }
 
+// Fails if rays start so far back, or the light stands so far off, that the place overflows to infinity,
+// which misses by definition.
+TEST(RaySets, workWhereFloatsEnd) {
+    const Scene ball = makeBall(1e38f, {});
+    for (const RaySetChoice& row : raySets()) {
+        const RaySet set = makeRaySet(row.name, ball, {.resolution = {20, 15}}, bruteForce(ball));
+        ASSERT_FALSE(set.rays.empty()) << row.name;
+        for (const Ray& ray : set.rays)
+            ASSERT_TRUE(isFinite(ray.origin) && isFinite(ray.direction)) << row.name;
+        if (row.name != "random") continue;
+        int met = 0;
+        for (const Hit& hit : bruteHits(ball, set.rays)) met += !hit.isMiss();
+        EXPECT_GT(met, 100);
+    }
+}
+
 TEST(RaySets, workOnAPoint) {
     const Scene point = makeScene({{5, 5, 5}}, {{0, 0, 0}});
     for (const RaySetChoice& row : raySets()) {

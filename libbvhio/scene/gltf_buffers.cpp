@@ -13,6 +13,7 @@ namespace {
 
 constexpr uint64_t kFreeBytes = 16 << 20;
 constexpr uint64_t kMaxGrowth = 64;
+constexpr uint64_t kMaxDecodes = 8;  // on average over the file: once is what useful files need
 // meshoptimizer's vertex codec spends at least 4 bytes on 256 bytes of vertices, its index codecs a byte per
 // triangle or index.
 constexpr uint64_t kMaxMeshoptGrowth = 64;
@@ -65,6 +66,13 @@ void GltfBuffers::spend(uint64_t bytes) {
         throw Error(ErrorKind::resources,
                     name() + ": the file claims far more vertices, triangles or instances than its " +
                         std::to_string(sourceBytes_) + " bytes can hold");
+}
+
+void GltfBuffers::spendCompressed(uint64_t bytes) {
+    decodedBytes_ += bytes;
+    if (decodedBytes_ > kMaxDecodes * sourceBytes_)
+        throw Error(ErrorKind::resources, name() + ": the file has its Draco data decoded more than " +
+                                              std::to_string(kMaxDecodes) + " times");
 }
 
 AlignedVector<std::byte> GltfBuffers::load(const GltfBufferSource& source, const std::string& where) const {

@@ -32,6 +32,10 @@ class GltfBuffers {
     /// (triangle strips with indices of one byte).
     void spend(uint64_t bytes);
 
+    /// Counts bytes that Draco decodes, which bounds itself what a byte may become. Throws Error resources
+    /// when the file has the same bytes decoded again and again.
+    void spendCompressed(uint64_t bytes);
+
     const std::string& name() const { return document_.name; }
 
   private:
@@ -43,7 +47,7 @@ class GltfBuffers {
     const GltfDocument& document_;
     std::filesystem::path directory_;
     uint64_t sourceBytes_;
-    uint64_t spentBytes_ = 0;
+    uint64_t spentBytes_ = 0, decodedBytes_ = 0;
     std::vector<AlignedVector<std::byte>> buffers_;
     std::map<int, AlignedVector<std::byte>> decompressed_;
 };

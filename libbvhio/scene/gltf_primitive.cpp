@@ -38,7 +38,9 @@ void readDraco(const tinygltf::Value& extension, int positions, const std::strin
     if (!view.IsInt() || !id.IsInt() || id.Get<int>() < 0)
         throw Error(ErrorKind::invalid,
                     where + ": KHR_draco_mesh_compression has no buffer view or no POSITION");
-    DracoMesh decoded = decodeDraco(buffers.view(view.Get<int>()), where, uint32_t(id.Get<int>()));
+    const std::span<const std::byte> bytes = buffers.view(view.Get<int>());
+    buffers.spendCompressed(bytes.size());
+    DracoMesh decoded = decodeDraco(bytes, where, uint32_t(id.Get<int>()));
     const float divisor = accessors.normalisation(positions);
     if (divisor != 0)
         for (Vec3& v : decoded.vertices)

@@ -166,6 +166,29 @@ TEST(Gltf, decodesDraco) {
     damageEverywhere(file, "x.glb", 7);
 }
 
+// Fails if a small file can have the same Draco data decoded and kept any number of times, by naming it from
+// many primitives.
+TEST(Gltf, boundsHowOftenDracoDataIsDecoded) {
+    const Triangles triangles(20'000, {0, 1, 2});
+    const std::vector<Vec3> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const auto bytes = encodeDraco(vertices, triangles, 8);
+    const std::string binary(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto file = [&](int primitives) {
+        std::string accessors, list;
+        for (int i = 0; i < primitives; ++i) {  // an accessor each, so that no two are the same
+            const std::string comma = i > 0 ? "," : "";
+            accessors += comma + R"({"componentType":5126,"count":3,"type":"VEC3"})";
+            list +=
+                comma + R"({"attributes":{"POSITION":)" + std::to_string(i) +
+                R"(},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}})";
+        }
+        return oneMesh(R"({"buffer":0,"byteLength":)" + std::to_string(binary.size()) + "}", accessors,
+                       binary, list);
+    };
+    EXPECT_EQ(importText(file(3), "x.glb").meshes.size(), 3u);
+    EXPECT_THROW(importText(file(200), "x.glb"), Error);
+}
+
 std::string meshoptFile(const std::string& mode = "ATTRIBUTES", const std::string& count = "3") {
     const float vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     std::string binary(meshopt_encodeVertexBufferBound(3, 12), '\0');

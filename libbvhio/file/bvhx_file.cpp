@@ -72,14 +72,17 @@ BvhxFile readBvhx(std::span<const std::byte> bytes, const std::string& name) {
     return readContent(container);
 }
 
-void writeBvhx(std::ostream& out, const BvhxFile& file, const WriteOptions& options) {
+std::optional<EncodedBvh> writeBvhx(std::ostream& out, const BvhxFile& file, const WriteOptions& options) {
     ContainerWriter writer(out, choose(codecs(), "codec", options.codec), options.codecLevel);
     const StoredScene stored = storeScene(file.scene, options);
     writeScene(writer, stored);
-    writeTree(writer, stored.draco.empty() ? file.bvh : refitTo(file.bvh, stored.scene), file.costs);
+    std::optional<EncodedBvh> refitted;
+    if (!stored.draco.empty()) refitted = refitTo(file.bvh, stored.scene);
+    writeTree(writer, refitted ? *refitted : file.bvh, file.costs);
     for (const UnknownChunk& chunk : file.unknownChunks) writer.write(chunk.type, chunk.flags, chunk.payload);
     if (!file.provenance.empty()) writeProvenance(writer, file.provenance);
     writer.finish();
+    return refitted;
 }
 
 void dropChunksThatDoNotSurvive(BvhxFile& file, Change change) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,8 +55,9 @@ BvhxFile readBvhx(const std::filesystem::path& path);
 /// Reads from memory, copying what it keeps.
 BvhxFile readBvhx(std::span<const std::byte> bytes, const std::string& name);
 
-/// Writes in one pass to a stream that need not be seekable.
-void writeBvhx(std::ostream& out, const BvhxFile& file, const WriteOptions& options);
+/// Writes in one pass to a stream that need not be seekable. Returns the tree as written where that is not
+/// file.bvh: refitted to geometry that was stored with losses.
+std::optional<EncodedBvh> writeBvhx(std::ostream& out, const BvhxFile& file, const WriteOptions& options);
 
 /// What a pass did to a tree.
 enum class Change { reordered, topologyChanged };

@@ -25,14 +25,14 @@ Pass::Pass(CommandLine& line, const std::string& inputName, const std::string& i
 BvhxFile Pass::read() {
     stages_->begin("read");
     BvhxFile file = readBvhx(input_);
-    sahBefore_ = sahCost(file);
+    sahBefore_ = sahCost(file.bvh, file.costs);
     return file;
 }
 
 void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string& work, const Report& extra) {
     stages_->begin("write");
     file.provenance.push_back({line_.tool(), std::string(toolsVersion()), jsonText(line_.options())});
-    writeBvhx(output_->stream(), file, options);
+    const std::optional<EncodedBvh> refitted = writeBvhx(output_->stream(), file, options);
     output_->commit();
     stages_->end();
     for (const auto& [stage, seconds] : stages_->stages())
@@ -41,7 +41,7 @@ void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string
 
     Report report = {{"tool", line_.tool()}, {"version", std::string(toolsVersion())}};
     report["sah_before"] = sahBefore_ ? Report(*sahBefore_) : Report();
-    report["sah_after"] = sahCost(file);
+    report["sah_after"] = sahCost(refitted ? *refitted : file.bvh, file.costs);
     report["seconds"] = stages_->seconds(work);
     for (const auto& [stage, seconds] : stages_->stages()) report["stage_seconds"][stage] = seconds;
     report["threads"] = threadCount();
@@ -52,8 +52,8 @@ void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string
     report_->commit();
 }
 
-double sahCost(const BvhxFile& file) {
-    return std::visit([&](const auto& form) { return sahCost(form.decode(), file.costs); }, file.bvh);
+double sahCost(const EncodedBvh& bvh, const SahCosts& costs) {
+    return sahCost(decode(bvh), costs);
 }
 
 uint64_t peakBytes() {

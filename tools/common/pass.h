@@ -36,7 +36,7 @@ class Pass {
 };
 
 /// The cost of the tree as its form stores it.
-double sahCost(const BvhxFile& file);
+double sahCost(const EncodedBvh& bvh, const SahCosts& costs);
 
 /// The most memory the process has had, in bytes.
 uint64_t peakBytes();

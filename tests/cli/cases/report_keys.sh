@@ -7,3 +7,8 @@ for tool in build restructure relayout compress; do
     keys $tool.json sah_before sah_after seconds threads peak_bytes options
     json options <$tool.json
 done
+# Of the tree as written: its boxes follow the rounded vertices.
+grid 20 | bvh-build | bvh-compress --geometry draco --position-bits 4 -o rough.bvhx --report rough.json
+reported=$(json sah_after <rough.json | cut -d ' ' -f 2)
+written=$(bvh-stats rough.bvhx --no-epo --format json | json sah_cost | cut -d ' ' -f 2)
+[ "$reported" = "$written" ] || echo "sah_after $reported, but the file has $written"

@@ -9,10 +9,9 @@ build=(
     libtbb-dev              # threads
     libhwy-dev              # SIMD chosen at run time
     libdraco-dev            # Draco meshes and geometry
-    libtinygltf-dev         # glTF; its headers include the two below
-    nlohmann-json3-dev libstb-dev
+    libtinygltf-dev         # glTF; its header includes the next one's
+    nlohmann-json3-dev      # JSON: reports, glTF
     libmeshoptimizer-dev    # EXT_meshopt_compression
-    libtinyobjloader-dev    # OBJ
     libzstd-dev             # the zstd codec
     libxxhash-dev           # checksums
     libpng-dev              # images

@@ -38,10 +38,6 @@ std::string text(const Geometry& g) {
         format("' of %u triangles from %u", g.triangleCount, g.firstTriangle));
 }
 
-std::string formName(const EncodedBvh& encoded) {
-    return std::string(std::visit([](const auto& form) { return form.kName; }, encoded));
-}
-
 /// Counts what differs, and says where the first is.
 class ArrayDiff {
   public:
@@ -161,7 +157,9 @@ std::vector<Difference> differences(const DiffSide& inputA, const Side& a, const
     };
     if (inputA.encoded.index() != inputB.encoded.index())
         result.push_back(
-            {Aspect::form, formName(inputA.encoded) + " and " + formName(inputB.encoded), a.bvh.nodeCount()});
+            {Aspect::form,
+             std::string(formNameOf(inputA.encoded)).append(" and ").append(formNameOf(inputB.encoded)),
+             a.bvh.nodeCount()});
     if (a.topology[0] == b.topology[0]) {
         add(orderDifference(a, b));
         add(boxDifference(a, b));
@@ -174,7 +172,7 @@ std::vector<Difference> differences(const DiffSide& inputA, const Side& a, const
 
 Report sideReport(const DiffSide& input, const Side& side) {
     Report report;
-    report["form"] = formName(input.encoded);
+    report["form"] = formNameOf(input.encoded);
     report["layout"] = layoutName(side.bvh);
     report["primitives"] = input.scene.triangles.size();
     report["nodes"] = side.bvh.nodeCount();

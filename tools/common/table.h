@@ -10,7 +10,7 @@ namespace bvhio {
 
 /// One line for each value, "key  value" in columns; a key within an object is "object.key". Objects whose
 /// keys are numbers, and arrays of plain values, are histograms or lists and take one line. Arrays of objects
-/// are left out.
+/// follow as tables of their own.
 void printTable(std::ostream& out, const Report& report);
 
 }  // namespace bvhio

@@ -25,9 +25,7 @@ const ToolInfo kTool = {
 /// The input, which is looked at more than once: what comes through a pipe is kept.
 struct Input {
     explicit Input(const std::string& path_)
-        : path(path_),
-          isPipe(!isRegularFile(path_)),
-          name(path == "-" ? "standard input" : path) {
+        : path(path_), isPipe(!isRegularFile(path_)), name(path == "-" ? "standard input" : path) {
         if (isPipe) bytes = readWholeFile(path);
     }
     BvhxFile read() const { return isPipe ? readBvhx(bytes, name) : readBvhx(path); }
@@ -153,7 +151,7 @@ ExitCode stats(CommandLine& line) {
         const BvhxFile file = input.read();
         if (provenance) asked["provenance"] = provenanceReport(file);
         if (!other.empty()) {
-            const BvhxFile second = readBvhx(other);
+            const BvhxFile second = query.readOther("--diff", other);
             asked["diff"] =
                 diffReport({file.scene, file.bvh, file.costs}, {second.scene, second.bvh, second.costs});
             different = !asked["diff"]["differences"].empty();

@@ -42,7 +42,8 @@ void declare(CommandLine& line, Options& options) {
     options.resolution =
         std::to_string(options.set.resolution.width) + "x" + std::to_string(options.set.resolution.height);
     line.choiceOrFile("--rays", options.rays, namedValues(raySets()), "FILE.rays", "which rays");
-    line.number("--count", options.set.count, 0, kMaxRays, "at most so many rays; 0: as --resolution says");
+    line.number("--count", options.set.count, 1, kMaxRays,
+                "at most so many rays; none: as --resolution says");
     line.text("--resolution", "WxH", options.resolution, "pixels of the picture that rays start from");
     line.number("--seed", options.set.seed, 0, UINT64_MAX, "of rays that are random");
     line.text("--camera", "EYE:TARGET[:FOV[:UP]]", options.camera,
@@ -103,9 +104,8 @@ double fastestRun(const Tracer& tracer, std::span<const Ray> rays, const Options
 }
 
 /// Compares with what the other container's rays found; prints how they differ.
-bool differs(const Options& options, std::span<const Ray> rays, std::span<const HitRecord> records,
-             Report& report) {
-    const BvhxFile other = readBvhx(options.compare);
+bool differs(const Options& options, const BvhxFile& other, std::span<const Ray> rays,
+             std::span<const HitRecord> records, Report& report) {
     const std::vector<HitRecord> others =
         trace(Tracer(other.scene, other.bvh), other.scene, rays, options.anyHit);
     const HitComparison comparison = compareHits(records, others, {options.tolerance});
@@ -169,7 +169,9 @@ ExitCode traceRays(CommandLine& line) {
     report["camera"] = formatCamera(set.camera);
     report["options"] = line.options();
     query.stages().begin("compare");
-    const bool different = !options.compare.empty() && differs(options, set.rays, records, report);
+    const bool different =
+        !options.compare.empty() &&
+        differs(options, query.readOther("--compare", options.compare), set.rays, records, report);
 
     query.stages().begin("write");
     if (raysOutput) raysOutput.write(encodeRays(set.rays));

@@ -66,7 +66,7 @@ struct CommandLine::Parser {
     void addWhole(const std::string& names, T& value, T min, T max, const std::string& help) {
         const std::string name = names.substr(names.rfind(',') + 1);
         add(
-            names, "N", withDefault(help, std::to_string(value)),
+            names, "N", value < min ? help : withDefault(help, std::to_string(value)),
             [=, &value](const std::string& text) {
                 const auto number = parseNumber<T>(text);
                 if (!number || *number < min || *number > max)
@@ -74,7 +74,7 @@ struct CommandLine::Parser {
                                                       std::to_string(min) + " to " + std::to_string(max));
                 value = *number;
             },
-            [&value] { return Report(value); });
+            [&value, min] { return value < min ? Report() : Report(value); });
     }
 
     /// `fileName` is empty where a file can't be named.
@@ -243,8 +243,10 @@ void CommandLine::parse() {
             throw Error(ErrorKind::io, "standard output: cannot be written");
         throw HelpShown{};
     }
-    if (const std::vector<std::string> extras = app.remaining(); !extras.empty())
-        parser_->refuseExtra(extras[0]);
+    for (bool ended = false; const std::string& extra : app.remaining()) {
+        if (extra != "--" || ended) parser_->refuseExtra(extra);
+        ended = true;  // "--" ends the options: what follows may begin with a dash
+    }
     if (verbose && quiet) throw Error(ErrorKind::usage, "-v and -q exclude each other: give one");
 
     setLogLevel(quiet ? LogLevel::quiet : verbose ? LogLevel::verbose : LogLevel::normal);

@@ -37,14 +37,15 @@ std::vector<NamedValue> namedValues(std::span<const Choice<Function>> table) {
 }
 
 /// Every option is bound to a variable that holds its default and is overwritten by parse(). `names` is
-/// "--bins" or
-/// "-o,--output". Options are remembered with their values, so options() can tell how a file was made.
+/// "--bins" or "-o,--output". Options are remembered with their values, so options() can tell how a file was
+/// made.
 class CommandLine {
   public:
     CommandLine(const ToolInfo& tool, int argc, char** argv);
     ~CommandLine();
 
     void positional(const std::string& name, std::string& value, const std::string& help);
+    /// A whole number in [min, max]. A default below min stands for none.
     void number(const std::string& names, uint32_t& value, uint32_t min, uint32_t max,
                 const std::string& help);
     void number(const std::string& names, uint64_t& value, uint64_t min, uint64_t max,

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,20 @@ std::string regularTarget(const std::string& path) {
     const auto target =
         std::filesystem::weakly_canonical(path, error);  // writing through a link keeps the link
     return error ? path : target.string();
+}
+
+/// Where the process's outputs go: final paths, and "-".
+std::set<std::string>& placesTaken() {
+    static std::set<std::string> places;
+    return places;
+}
+
+/// One spelling for each file.
+std::string placeOf(const std::string& finalPath) {
+    std::error_code error;
+    // Absolute first: of a relative path to no file yet, the canonical form would stay relative.
+    const auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(finalPath, error), error);
+    return error ? finalPath : place.string();
 }
 
 }  // namespace
@@ -133,8 +148,12 @@ class Output::Buffer : public std::streambuf {
 
 Output::Output(const std::string& path, OutputKind kind) : name_(path == "-" ? "standard output" : path) {
     int file = STDOUT_FILENO;
+    if (path != "-") finalPath_ = regularTarget(path);
+    place_ = path == "-" || finalPath_.empty() ? path : placeOf(finalPath_);
+    const bool isShared = path != "-" && finalPath_.empty();  // devices take any number of outputs
+    if (!isShared && !placesTaken().insert(place_).second)
+        throw Error(ErrorKind::usage, name_ + ": two outputs go there: name a file for each");
     if (path != "-") {
-        finalPath_ = regularTarget(path);
         if (finalPath_.empty()) {
             file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
         } else {
@@ -169,6 +188,7 @@ Output::Output(const std::string& path, OutputKind kind) : name_(path == "-" ? "
 }
 
 Output::~Output() {
+    placesTaken().erase(place_);
     if (slot_ < 0) return;
     if (temporaries[slot_].exists) unlink(temporary_.c_str());
     temporaries[slot_].exists = false;

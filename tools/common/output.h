@@ -18,7 +18,7 @@ enum class OutputKind { text, binary };
 class Output {
   public:
     /// Opens the file, so that a wrong path is found out before the work. Throws Error: io; usage when binary
-    /// data would go to a terminal.
+    /// data would go to a terminal, or where another output goes.
     Output(const std::string& path, OutputKind kind);
     /// Removes the temporary file unless commit() was called.
     ~Output();
@@ -34,6 +34,7 @@ class Output {
     std::string name_;       // for messages
     std::string finalPath_;  // empty when written in place
     std::string temporary_;
+    std::string place_;  // taken by this output, so that no other goes there
     std::unique_ptr<Buffer> buffer_;
     std::unique_ptr<std::ostream> stream_;
     int slot_ = -1;  // in the list of what signals remove

@@ -2,6 +2,7 @@
 
 #include "common/input.h"
 #include "common/table.h"
+#include "core/error.h"
 
 namespace bvhio {
 
@@ -20,6 +21,13 @@ QueryTool::QueryTool(CommandLine& line) {
 BvhxFile QueryTool::read() {
     stages_->begin("read");
     return readBvhx(input_);
+}
+
+BvhxFile QueryTool::readOther(const std::string& option, const std::string& path) {
+    if (path == "-" && input_ == "-")
+        throw Error(ErrorKind::usage, option + ": standard input is INPUT already: name a file");
+    refuseTerminalInput(path);
+    return readBvhx(path);
 }
 
 void QueryTool::print(const Report& report) {

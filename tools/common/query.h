@@ -21,6 +21,8 @@ class QueryTool {
     bool isJson() const { return format_ == "json"; }
     ProgressBar& stages() { return *stages_; }
     BvhxFile read();
+    /// Reads the container that `option` names beside INPUT; standard input can't be both.
+    BvhxFile readOther(const std::string& option, const std::string& path);
     /// Where text goes that is no report.
     std::ostream& out() { return output_->stream(); }
     /// Prints the report, as a table or as one JSON object.

@@ -23,5 +23,11 @@ code bvh-trace cube.bvhx --resolution 64
 code bvh-trace cube.bvhx --camera here
 code bvh-trace cube.bvhx --rays prinary
 code bvh-trace cube.bvhx --rays random --heatmap cost.png
+code bvh-trace cube.bvhx --count 0
+code bvh-trace cube.bvhx --image picture.png --heatmap ./picture.png
+code bvh-trace cube.bvhx --image -
+code bvh-build cube.obj -o built.bvhx --report built.bvhx
+code bvh-trace - --compare - <cube.bvhx
+code bvh-stats --diff - <cube.bvhx
 code bvh-stats cube.bvhx --format xml
 ls

@@ -125,6 +125,20 @@ TEST(IntersectTriangle, hitsAtBothLimitsAndNotBeyond) {
     EXPECT_TRUE(at(-1, 2));
 }
 
+// Fails if a t beyond the floats counts as a hit at infinity, which is how a miss reads.
+TEST(IntersectTriangle, missesWhereTOverflows) {
+    EXPECT_TRUE(hitOf({{1, 1, 1}, 0, {0, 0, -1e-40f}, kInf}, kTriangle).isMiss());
+}
+
+// Fails if the shear, a third here, is rounded to float: from so far away that moves the hit by half a unit.
+TEST(IntersectTriangle, staysPreciseFarAway) {
+    const Hit hit = hitOf({{1 - 0x1p24f, 1, -3 * 0x1p24f}, 0, {1, 0, 3}, kInf}, kTriangle);
+    EXPECT_FALSE(hit.isMiss());
+    EXPECT_EQ(hit.t, 0x1p24f);
+    EXPECT_NEAR(hit.u, 0.25, 1e-6);
+    EXPECT_NEAR(hit.v, 0.25, 1e-6);
+}
+
 TEST(IntersectTriangle, hitsAtItsOriginWithAPositiveZero) {
     for (const float side : {1.0f, -1.0f}) {
         const Hit hit = hitOf({{0, 0, 0}, 0, {0.1f, 0.2f, side}, kInf}, kTriangle);

@@ -19,6 +19,7 @@ build=(
     libspdlog-dev           # logs
 )
 tests=(
+    git                     # the style check lists files by it
     libgtest-dev
     clang clang-format libclang-rt-14-dev   # the second compiler, the format check, the fuzzers
     python3 python3-xxhash python3-zstandard  # the second reader of the format

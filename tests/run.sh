@@ -46,7 +46,7 @@ install() {
     local prefix
     prefix=$(mktemp -d) &&
         build release && cmake --install build/release --prefix "$prefix" >/dev/null &&
-        cmake -S samples/library -B "$prefix/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >/dev/null &&
+        cmake -G Ninja -S samples/library -B "$prefix/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >/dev/null &&
         cmake --build "$prefix/build" &&
         "$prefix/bin/bvh-build" samples/scenes/courtyard.glb -o "$prefix/scene.bvhx" &&
         "$prefix/build/shoot" "$prefix/scene.bvhx" | grep '^hit at'

@@ -7,89 +7,40 @@
 // The trees are built with an intersection cost of 0.25 unless told otherwise: four triangles are tested at a
 // time, so leaves of up to four cost little more than leaves of one. The default of bvh-build, 1, is the
 // field's convention, which costs are compared by.
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <ctime>
 #include <string>
 #include <vector>
 
+#include "bench_common.h"
 #include "build/builders.h"
 #include "core/parallel.h"
-#include "scene/import.h"
 #include "trace/ray_sets.h"
 #include "trace/trace.h"
 
 namespace {
 
 using namespace bvhio;
+using namespace bvhio::bench;
 
-/// Processor time of this thread: what else the machine does hardly shows in it.
-double secondsOf(const auto& run) {
-    const auto now = [] {
-        timespec time;
-        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-        return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
-    };
-    const double start = now();
-    run();
-    return now() - start;
+void embreeClosestHits(const EmbreeScene& embree, std::span<const Ray> rays, std::span<Hit> hits) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const Ray& r = rays[i];
+        RTCRayHit ray{};
+        ray.ray.org_x = r.origin.x, ray.ray.org_y = r.origin.y, ray.ray.org_z = r.origin.z;
+        ray.ray.dir_x = r.direction.x, ray.ray.dir_y = r.direction.y, ray.ray.dir_z = r.direction.z;
+        ray.ray.tnear = r.tMin, ray.ray.tfar = r.tMax;
+        ray.ray.mask = ~0u;
+        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(embree.get(), &context, &ray);
+        hits[i] = ray.hit.geomID == RTC_INVALID_GEOMETRY_ID
+                      ? Hit{}
+                      : Hit{ray.ray.tfar, ray.hit.u, ray.hit.v, ray.hit.primID};
+    }
 }
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
-/// The scene in Embree: one triangle geometry, robust, default build quality.
-class EmbreeScene {
-  public:
-    explicit EmbreeScene(const Scene& scene)
-        : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-        const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 sizeof(Vec3), scene.vertices.size());
-        void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                  sizeof(TriangleIndices), scene.triangles.size());
-        std::memcpy(vertices, scene.vertices.data(), scene.vertices.size() * sizeof(Vec3));
-        std::memcpy(triangles, scene.triangles.data(), scene.triangles.size() * sizeof(TriangleIndices));
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene_, geometry);
-        rtcReleaseGeometry(geometry);
-        rtcCommitScene(scene_);
-    }
-    ~EmbreeScene() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-    EmbreeScene(const EmbreeScene&) = delete;
-
-    void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        for (size_t i = 0; i < rays.size(); ++i) {
-            const Ray& r = rays[i];
-            RTCRayHit ray{};
-            ray.ray.org_x = r.origin.x, ray.ray.org_y = r.origin.y, ray.ray.org_z = r.origin.z;
-            ray.ray.dir_x = r.direction.x, ray.ray.dir_y = r.direction.y, ray.ray.dir_z = r.direction.z;
-            ray.ray.tnear = r.tMin, ray.ray.tfar = r.tMax;
-            ray.ray.mask = ~0u;
-            ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-            rtcIntersect1(scene_, &context, &ray);
-            hits[i] = ray.hit.geomID == RTC_INVALID_GEOMETRY_ID
-                          ? Hit{}
-                          : Hit{ray.ray.tfar, ray.hit.u, ray.hit.v, ray.hit.primID};
-        }
-    }
-
-  private:
-    RTCDevice device_;
-    RTCScene scene_;
-};
 
 struct Agreement {
     size_t differentT = 0, onlyOurs = 0, onlyEmbree = 0;
@@ -115,6 +66,7 @@ struct Options {
 
 int run(const Options& options) {
     const ThreadLimit oneThread(1);
+    const EmbreeDevice device(1);
     BuildOptions buildOptions;
     buildOptions.costs.intersection = options.intersectionCost;
     const char* const kRaySets[] = {"primary", "diffuse"};
@@ -122,10 +74,11 @@ int run(const Options& options) {
     std::printf("%-22s %-8s %9s %11s %11s %7s   %s\n", "scene", "rays", "count", "ours Mr/s", "Embree Mr/s",
                 "ratio", "other t / hit only by us / only by Embree");
     for (const std::string& path : options.scenes) {
-        const Scene scene = flatten(importFile(path), {});
+        const Scene scene = loadScene(path);
         const EncodedBvh bvh = AabbForm(builders()[0].function(scene, buildOptions));
         const Tracer tracer(scene, bvh);
-        const EmbreeScene embree(scene);
+        EmbreeScene embree(device, scene, RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_ROBUST);
+        embree.commit();
         const ClosestHits closestHits = [&](std::span<const Ray> rays) {
             std::vector<Hit> hits(rays.size());
             tracer.closestHits(rays, hits);
@@ -139,8 +92,8 @@ int run(const Options& options) {
             std::vector<Hit> ours(rays.size()), theirs(rays.size());
             std::vector<double> ourSeconds, theirSeconds;
             for (int round = 0; round < options.rounds; ++round) {
-                ourSeconds.push_back(secondsOf([&] { tracer.closestHits(rays, ours); }));
-                theirSeconds.push_back(secondsOf([&] { embree.closestHits(rays, theirs); }));
+                ourSeconds.push_back(timeOf([&] { tracer.closestHits(rays, ours); }).processor);
+                theirSeconds.push_back(timeOf([&] { embreeClosestHits(embree, rays, theirs); }).processor);
             }
             const double ratio = median(theirSeconds) / median(ourSeconds);
             logRatios[set] += std::log(ratio);

@@ -116,7 +116,7 @@ std::optional<ChunkHeader> ContainerReader::nextHeader() {
 
 Bytes ContainerReader::takeStored() {
     pending_ = false;
-    const Bytes stored = source_.take(header_.storedSize);
+    Bytes stored = source_.take(header_.storedSize);
     if (stored.size() < header_.storedSize)
         fail(FindingId::cut, "the file ends after " + std::to_string(stored.size()) + " of the payload's " +
                                  std::to_string(header_.storedSize) + " bytes: it was cut");

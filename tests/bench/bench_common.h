@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -43,6 +45,25 @@ inline double median(std::vector<double> values) {
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
+
+/// What build_bench and load_bench take: [--rounds N] [--threads N] SCENE...
+struct Arguments {
+    int rounds = 15;
+    size_t threads = 2;
+    std::vector<std::filesystem::path> scenes;
+
+    Arguments(int count, char** arguments) {
+        for (int i = 1; i < count; ++i) {
+            if (std::strcmp(arguments[i], "--rounds") == 0 && i + 1 < count) {
+                rounds = std::max(1, std::atoi(arguments[++i]));
+            } else if (std::strcmp(arguments[i], "--threads") == 0 && i + 1 < count) {
+                threads = size_t(std::max(1, std::atoi(arguments[++i])));
+            } else {
+                scenes.emplace_back(arguments[i]);
+            }
+        }
+    }
+};
 
 /// Rounds of one measurement.
 struct Samples {

@@ -1,9 +1,6 @@
 // Building: our default builder against Embree's medium quality, interleaved.
 // Usage: build_bench [--rounds N] [--threads N] SCENE...
 
-#include <cstdlib>
-#include <cstring>
-
 #include "bench_common.h"
 #include "build/builders.h"
 #include "core/parallel.h"
@@ -42,28 +39,17 @@ void measure(const std::filesystem::path& path, int rounds, const EmbreeDevice& 
 }  // namespace
 
 int main(int count, char** arguments) {
-    int rounds = 15;
-    size_t threads = 2;
-    std::vector<std::filesystem::path> paths;
-    for (int i = 1; i < count; ++i) {
-        if (std::strcmp(arguments[i], "--rounds") == 0 && i + 1 < count) {
-            rounds = std::max(1, std::atoi(arguments[++i]));
-        } else if (std::strcmp(arguments[i], "--threads") == 0 && i + 1 < count) {
-            threads = size_t(std::max(1, std::atoi(arguments[++i])));
-        } else {
-            paths.emplace_back(arguments[i]);
-        }
-    }
-    if (paths.empty()) {
+    const Arguments options(count, arguments);
+    if (options.scenes.empty()) {
         std::fprintf(stderr, "usage: build_bench [--rounds N] [--threads N] SCENE...\n");
         return 1;
     }
     try {
-        const ThreadLimit limit(threads);
-        const EmbreeDevice device(threads);
+        const ThreadLimit limit(options.threads);
+        const EmbreeDevice device(options.threads);
         const Table table(
             {"scene", "triangles", "ms", "embree ms", "ratio", "cpu ratio", "cost 1/1", "cost 1.2/1"});
-        for (const auto& path : paths) measure(path, rounds, device, table);
+        for (const auto& path : options.scenes) measure(path, options.rounds, device, table);
     } catch (const Error& error) {
         std::fprintf(stderr, "build_bench: %s\n", error.what());
         return int(error.kind());

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <optional>
 
@@ -110,28 +109,17 @@ void measure(const fs::path& path, int rounds, const EmbreeDevice& device, const
 }  // namespace
 
 int main(int count, char** arguments) {
-    int rounds = 15;
-    size_t threads = 2;
-    std::vector<fs::path> paths;
-    for (int i = 1; i < count; ++i) {
-        if (std::strcmp(arguments[i], "--rounds") == 0 && i + 1 < count) {
-            rounds = std::max(1, std::atoi(arguments[++i]));
-        } else if (std::strcmp(arguments[i], "--threads") == 0 && i + 1 < count) {
-            threads = size_t(std::max(1, std::atoi(arguments[++i])));
-        } else {
-            paths.emplace_back(arguments[i]);
-        }
-    }
-    if (paths.empty()) {
+    const Arguments options(count, arguments);
+    if (options.scenes.empty()) {
         std::fprintf(stderr, "usage: load_bench [--rounds N] [--threads N] SCENE...\n");
         return 1;
     }
     try {
-        const ThreadLimit limit(threads);
-        const EmbreeDevice device(threads);
+        const ThreadLimit limit(options.threads);
+        const EmbreeDevice device(options.threads);
         std::printf("GB/s: a disk faster than this loads the file sooner than Embree rebuilds the tree.\n");
         const Table table({"scene and codec", "MB", "load ms", "embree ms", "ratio", "cpu ratio", "GB/s"});
-        for (const auto& path : paths) measure(path, rounds, device, table);
+        for (const auto& path : options.scenes) measure(path, options.rounds, device, table);
     } catch (const Error& error) {
         std::fprintf(stderr, "load_bench: %s\n", error.what());
         return int(error.kind());

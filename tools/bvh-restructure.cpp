@@ -10,21 +10,46 @@ namespace {
 const ToolInfo kTool = {
     "bvh-restructure",
     "Lowers the cost of a container's tree by changing which nodes it has.",
-    "  bvh-build scene.glb | bvh-restructure -o scene.bvhx\n",
+    "  bvh-build scene.glb | bvh-restructure -o scene.bvhx\n"
+    "  bvh-build scene.glb | bvh-restructure --iterations 100 --report steps.json -o "
+    "scene.bvhx\n",
 };
 
+Report iterationsOf(const Restructured& result) {
+    Report list = Report::array();
+    for (const RestructureIteration& iteration : result.iterations)
+        list.push_back({{"sah_cost", iteration.sahCost},
+                        {"seconds", iteration.seconds},
+                        {"changes", iteration.changes}});
+    return list;
+}
+
 ExitCode restructure(CommandLine& line) {
+    RestructureOptions options;
     std::string method(restructurers()[0].name);
     line.choice("--method", method, namedValues(restructurers()), "how the tree is changed");
+    line.number("--iterations", options.iterations, 0, 100000, "passes over the tree; 0: the method's own");
+    line.number("--treelet-size", options.treeletSize, 0, kMaxTreeletSize,
+                "leaves of a treelet, for atr and tr; 0: the method's own");
+    line.number("--gamma", options.gamma, 0, 1u << 30,
+                "atr, tr: fewest references below a node that roots a treelet; 0: the treelet size");
+    line.toggle("collapse", options.collapse, "open leaves first, and form them again where that is cheaper");
+    line.number("--max-leaf-size", options.maxLeafSize, 0, kMaxLeafSize,
+                "most triangles of a leaf that forms; 0: as in INPUT, and at least 4");
     Pass pass(line, "INPUT", "the container; - or nothing: standard input");
 
     BvhxFile file = pass.read();
     pass.stages().begin("restructure");
+    options.costs = file.costs;
+    options.recordCosts = pass.reports();
+    options.progress = &pass.stages().progress();
     const auto& chosen = choose(restructurers(), "method", method);
-    file.bvh = AabbForm(chosen.function(decode(file.bvh), {file.costs}));
+    Restructured result = chosen.function(file.scene, decode(file.bvh), options);
+    file.bvh = AabbForm(std::move(result.bvh));
     dropChunksThatDoNotSurvive(file, Change::topologyChanged);
     dropChunksThatDoNotSurvive(file, Change::reordered);
-    pass.finish(file, {}, "restructure");
+    pass.finish(file, {}, "restructure",
+                {{"iterations", iterationsOf(result)}, {"bytes_per_node", result.bytesPerNode}});
     return ExitCode::done;
 }
 

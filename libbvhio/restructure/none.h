@@ -5,8 +5,8 @@
 
 namespace bvhio {
 
-inline Bvh restructureNone(const Bvh& bvh, const RestructureOptions&) {
-    return bvh;
+inline Restructured restructureNone(const Scene&, const Bvh& bvh, const RestructureOptions&) {
+    return {bvh, {}, 0};
 }
 
 }  // namespace bvhio

@@ -1,20 +1,47 @@
 // The table of restructurers: they change which nodes a tree has, to lower its cost.
 #pragma once
 
+#include <vector>
+
 #include "core/bvh.h"
 #include "core/choice.h"
+#include "core/progress.h"
 #include "core/sah_cost.h"
+#include "scene/scene.h"
 
 namespace bvhio {
 
+/// Most leaves of a treelet.
+inline constexpr uint32_t kMaxTreeletSize = 30;
+
 struct RestructureOptions {
     SahCosts costs;
+    uint32_t treeletSize = 0;  // leaves of a treelet, for methods that have treelets; 0 = the method's own
+    uint32_t iterations = 0;   // 0 = the method's own
+    uint32_t gamma = 0;        // references below a node from which it roots treelets; 0 = the treelet size
+    bool collapse = true;      // leaves are opened first, and formed again where that is cheaper
+    uint32_t maxLeafSize = 0;  // of leaves that form; 0 = that of the given tree, and at least 4
+    bool recordCosts = false;  // find the cost after each iteration, which takes time of its own
+    Progress* progress = nullptr;
 };
 
-/// A restructurer returns a tree over the same primitives that keeps every invariant of Bvh and never costs
+/// What one pass over the tree did.
+struct RestructureIteration {
+    double sahCost = 0;    // after it, leaves formed; 0 unless recordCosts
+    double seconds = 0;    // since the last, without finding costs
+    uint64_t changes = 0;  // treelets rebuilt, or subtrees moved
+};
+
+struct Restructured {
+    Bvh bvh;
+    std::vector<RestructureIteration> iterations;
+    double bytesPerNode = 0;  // the memory that the method works in, per node of the opened tree
+};
+
+/// A restructurer returns a tree over the same triangles that keeps every invariant of Bvh and never costs
 /// more, whose bytes depend on the tree and the options alone: not on the number of threads, the compiler or
-/// the processor.
-using Restructurer = Choice<Bvh (*)(const Bvh&, const RestructureOptions&)>;
+/// the processor. Throws Error{usage} for options out of its range.
+using Restructurer = Choice<Restructured (*)(const Scene&, const Bvh&, const RestructureOptions&)>;
 
 /// All restructurers, the default first.
 std::span<const Restructurer> restructurers();

@@ -1,5 +1,5 @@
-// Closest and any hits are those of brute force, bit by bit: for every builder, form, source of triangles and
-// processor.
+// Closest and any hits are those of brute force, bit by bit: for every builder, restructurer, form, source of
+// triangles and processor.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -9,6 +9,7 @@
 #include "common/test_rays.h"
 #include "common/test_scenes.h"
 #include "core/parallel.h"
+#include "restructure/restructurers.h"
 #include "trace/trace.h"
 
 namespace bvhio {
@@ -96,6 +97,18 @@ TEST_P(HitsInScene, equalBruteForceForEveryBuilderAndForm) {
                         expectHits(Tracer(scene, bvh, source), rays, expected);
                     }
                 });
+}
+
+TEST_P(HitsInScene, equalBruteForceForEveryRestructurer) {
+    const Scene scene = GetParam().make();
+    const std::vector<Ray> rays = raysFor(scene);
+    const Expected expected(scene, rays);
+    for (const Builder& builder : builders())
+        for (const Restructurer& restructurer : restructurers()) {
+            SCOPED_TRACE(testing::Message() << builder.name << ' ' << restructurer.name);
+            const Bvh bvh = restructurer.function(scene, builder.function(scene, {}), {}).bvh;
+            expectHits(Tracer(scene, AabbForm(bvh)), rays, expected);
+        }
 }
 
 TEST_P(HitsInScene, areTheSameOnEveryProcessor) {

@@ -192,6 +192,13 @@ void CommandLine::flag(const std::string& names, bool& value, const std::string&
         parser_->recorded.push_back({option->get_single_name(), [&value] { return Report(value); }});
 }
 
+void CommandLine::toggle(const std::string& name, bool& value, const std::string& help) {
+    CLI::Option* option =
+        parser_->app.add_flag("--" + name + ",!--no-" + name, value, withDefault(help, value ? "on" : "off"));
+    option->group(parser_->group)->take_last();
+    if (parser_->recording) parser_->recorded.push_back({name, [&value] { return Report(value); }});
+}
+
 void CommandLine::choice(const std::string& names, std::string& value, const std::vector<NamedValue>& values,
                          const std::string& help) {
     parser_->addChoice(names, value, values, "", help);

@@ -55,6 +55,8 @@ class CommandLine {
     void text(const std::string& names, const std::string& valueName, std::string& value,
               const std::string& help);
     void flag(const std::string& names, bool& value, const std::string& help);
+    /// --NAME and --no-NAME, the last one given counts; options() remembers it as NAME.
+    void toggle(const std::string& name, bool& value, const std::string& help);
     /// One of `values`; a misspelt one is refused with the nearest.
     void choice(const std::string& names, std::string& value, const std::vector<NamedValue>& values,
                 const std::string& help);

@@ -19,6 +19,8 @@ class Pass {
     Pass(CommandLine& line, const std::string& inputName, const std::string& inputHelp);
 
     const std::string& input() const { return input_; }
+    /// Whether a report is wanted.
+    bool reports() const { return report_.has_value(); }
     ProgressBar& stages() { return *stages_; }
     /// Reads the container and notes its cost, the report's sah_before.
     BvhxFile read();

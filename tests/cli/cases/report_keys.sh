@@ -5,6 +5,7 @@ bvh-relayout cube.bvhx --report relayout.json >relaid.bvhx
 bvh-compress cube.bvhx --report compress.json >compressed.bvhx
 for tool in build restructure relayout compress; do
     keys $tool.json sah_before sah_after seconds threads peak_bytes options
+    [ $tool != restructure ] || keys $tool.json iterations bytes_per_node
     json options <$tool.json
 done
 # Of the tree as written: its boxes follow the rounded vertices.

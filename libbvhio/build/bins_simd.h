@@ -12,51 +12,14 @@
 #include <cstring>
 
 #include "build/binned.h"
-#include "build/reference.h"
+#include "build/boxes_simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Four = hn::FixedTag<float, 4>;
-using FourU = hn::FixedTag<uint32_t, 4>;
-using FourV = hn::Vec<Four>;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr uint32_t kTwoSets = 512;  // references from which two sets of bins pay
-
-/// A Box in registers.
-#if HWY_MAX_BYTES >= 32
-struct BoxV {
-    using Eight = hn::FixedTag<float, 8>;
-    hn::Vec<Eight> lanes;
-
-    static HWY_INLINE BoxV load(const float* p) { return {hn::Load(Eight(), p)}; }
-    static HWY_INLINE BoxV empty() { return {hn::Set(Eight(), -kInfinity)}; }
-    HWY_INLINE void store(float* p) const { hn::Store(lanes, Eight(), p); }
-    HWY_INLINE FourV low() const { return hn::LowerHalf(Four(), lanes); }
-    HWY_INLINE FourV high() const { return hn::UpperHalf(Four(), lanes); }
-    friend HWY_INLINE BoxV unite(BoxV a, BoxV b) { return {hn::Max(a.lanes, b.lanes)}; }
-};
-#else
-struct BoxV {
-    FourV lows, highs;
-
-    static HWY_INLINE BoxV load(const float* p) { return {hn::Load(Four(), p), hn::Load(Four(), p + 4)}; }
-    static HWY_INLINE BoxV empty() { return {hn::Set(Four(), -kInfinity), hn::Set(Four(), -kInfinity)}; }
-    HWY_INLINE void store(float* p) const {
-        hn::Store(lows, Four(), p);
-        hn::Store(highs, Four(), p + 4);
-    }
-    HWY_INLINE FourV low() const { return lows; }
-    HWY_INLINE FourV high() const { return highs; }
-    friend HWY_INLINE BoxV unite(BoxV a, BoxV b) {
-        return {hn::Max(a.lows, b.lows), hn::Max(a.highs, b.highs)};
-    }
-};
-#endif
 
 /// Maps doubled centroids to bins: bin = round((centroid - origin) * scale - 0.5), by the same operations
 /// wherever it is computed. Adding 2^23 - 0.5 leaves the bin in the low bits of the float.

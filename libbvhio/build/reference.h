@@ -59,9 +59,12 @@ static_assert(sizeof(Reference) == sizeof(Box));
 /// The bounds of the doubled centroids of a run of references.
 Box centroidBounds(const Reference* references, size_t count);
 
-/// Makes the references of all triangles, in order, and their bounds. Returns true when coordinates are so
-/// large or small that areas could leave the range of a float: the boxes are then scaled by a power of two,
-/// and the tree's boxes need refitting.
+/// 1, or the power of two that brings coordinates so large or small that areas could leave the range of a
+/// float to about 1.
+float areaScale(const Box& bounds);
+
+/// Makes the references of all triangles, in order, and their bounds. Returns true when the boxes are scaled
+/// (areaScale is not 1), and the tree's boxes need refitting.
 bool makeReferences(const Scene& scene, Buffer<Reference>& references, Box& bounds);
 
 /// The nodes of `bvh` with boxes recomputed from the triangles.

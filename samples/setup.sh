@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the project needs on Debian 12: the one place that lists its packages. CMake finds each of them
-# (libbvhio, tools, tests and tests/bench). Usage: samples/setup.sh [build] [tests] [bench]; nothing given means build.
+# (libbvhio, tools, tests and tests/bench). Usage: samples/setup.sh [build] [tests] [bench] [plots]; nothing given means build.
 # Does nothing when all is there; needs root, or sudo, only when something is missing.
 set -euo pipefail
 
@@ -25,6 +25,7 @@ tests=(
     python3 python3-xxhash python3-zstandard  # the second reader of the format
 )
 bench=(libembree-dev)       # the peer
+plots=(python3 python3-matplotlib)  # samples/pipelines/compare_methods.py --plot
 
 wanted=()
 for part in "${@:-build}"; do
@@ -32,7 +33,8 @@ for part in "${@:-build}"; do
         build) wanted+=("${build[@]}") ;;
         tests) wanted+=("${tests[@]}") ;;
         bench) wanted+=("${bench[@]}") ;;
-        *) echo "setup.sh: unknown part '$part': use build, tests or bench" >&2; exit 1 ;;
+        plots) wanted+=("${plots[@]}") ;;
+        *) echo "setup.sh: unknown part '$part': use build, tests, bench or plots" >&2; exit 1 ;;
     esac
 done
 

@@ -44,12 +44,16 @@ ExitCode restructure(CommandLine& line) {
     options.recordCosts = pass.reports();
     options.progress = &pass.stages().progress();
     const auto& chosen = choose(restructurers(), "method", method);
+    const double start = pass.stages().elapsed();
     Restructured result = chosen.function(file.scene, decode(file.bvh), options);
+    const double seconds = pass.stages().elapsed() - start - result.recordingSeconds;
     file.bvh = AabbForm(std::move(result.bvh));
     dropChunksThatDoNotSurvive(file, Change::topologyChanged);
     dropChunksThatDoNotSurvive(file, Change::reordered);
     pass.finish(file, {}, "restructure",
-                {{"iterations", iterationsOf(result)}, {"bytes_per_node", result.bytesPerNode}});
+                {{"seconds", seconds},
+                 {"iterations", iterationsOf(result)},
+                 {"bytes_per_node", result.bytesPerNode}});
     return ExitCode::done;
 }
 

@@ -6,7 +6,7 @@
 namespace bvhio {
 
 inline Restructured restructureNone(const Scene&, const Bvh& bvh, const RestructureOptions&) {
-    return {bvh, {}, 0};
+    return {bvh, {}, 0, 0};
 }
 
 }  // namespace bvhio

@@ -35,7 +35,8 @@ struct RestructureIteration {
 struct Restructured {
     Bvh bvh;
     std::vector<RestructureIteration> iterations;
-    double bytesPerNode = 0;  // the memory that the method works in, per node of the opened tree
+    double bytesPerNode = 0;      // the memory that the method works in, per node of the opened tree
+    double recordingSeconds = 0;  // what recordCosts took
 };
 
 /// A restructurer returns a tree over the same triangles that keeps every invariant of Bvh and never costs

@@ -147,6 +147,7 @@ void TreeEditor::endIteration(uint64_t changes) {
     }
     iterations_.push_back({cost, std::chrono::duration<double>(end - iterationStart_).count(), changes});
     iterationStart_ = Clock::now();
+    recordingSeconds_ += std::chrono::duration<double>(iterationStart_ - end).count();
 }
 
 Restructured TreeEditor::finish(size_t workBytes) && {
@@ -154,7 +155,7 @@ Restructured TreeEditor::finish(size_t workBytes) && {
     Bvh bvh = options_.collapse ? collapse(tree, options_.costs, maxLeafSize_) : depthFirst(tree);
     if (!(sahCost(bvh, options_.costs) < sahCost(given_, options_.costs))) bvh = given_;
     const double nodes = double(nodes_.size() - 1);
-    return {std::move(bvh), std::move(iterations_), double(bytes() + workBytes) / nodes};
+    return {std::move(bvh), std::move(iterations_), double(bytes() + workBytes) / nodes, recordingSeconds_};
 }
 
 }  // namespace bvhio

@@ -54,6 +54,7 @@ class TreeEditor {
     Buffer<uint32_t> parentOfPair_;
     SharedArray<uint32_t> primitives_;
     std::vector<RestructureIteration> iterations_;
+    double recordingSeconds_ = 0;
     Clock::time_point iterationStart_ = Clock::now();
 };
 

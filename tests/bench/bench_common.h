@@ -46,18 +46,21 @@ inline double median(std::vector<double> values) {
     return *middle;
 }
 
-/// What build_bench and load_bench take: [--rounds N] [--threads N] SCENE...
+/// What build_bench and load_bench take: [--rounds N] [--threads N] SCENE..., and one option of the
+/// program's own, which may be given several times.
 struct Arguments {
     int rounds = 15;
     size_t threads = 2;
     std::vector<std::filesystem::path> scenes;
 
-    Arguments(int count, char** arguments) {
+    Arguments(int count, char** arguments, const char* own = "", std::vector<std::string>* values = nullptr) {
         for (int i = 1; i < count; ++i) {
             if (std::strcmp(arguments[i], "--rounds") == 0 && i + 1 < count) {
                 rounds = std::max(1, std::atoi(arguments[++i]));
             } else if (std::strcmp(arguments[i], "--threads") == 0 && i + 1 < count) {
                 threads = size_t(std::max(1, std::atoi(arguments[++i])));
+            } else if (values != nullptr && std::strcmp(arguments[i], own) == 0 && i + 1 < count) {
+                values->emplace_back(arguments[++i]);
             } else {
                 scenes.emplace_back(arguments[i]);
             }

@@ -1,55 +1,130 @@
-// Building: our default builder against Embree's medium quality, interleaved.
-// Usage: build_bench [--rounds N] [--threads N] SCENE...
+// Building and restructuring: chains of ours and Embree's three qualities, interleaved in each round.
+// Usage: build_bench [--rounds N] [--threads N] [--chain BUILDER[+METHOD[:ITERATIONS]]]... SCENE...
+// Without --chain: every builder, then every restructurer over the default builder. Times are medians, of the
+// whole chain; `restructure` is the part of it that the restructurers took. Costs are for 1/1, those that
+// papers report, and the tree is built for them too.
 
 #include "bench_common.h"
 #include "build/builders.h"
 #include "core/parallel.h"
+#include "restructure/restructurers.h"
 
 namespace {
 
 using namespace bvhio;
 using namespace bvhio::bench;
 
-void measure(const std::filesystem::path& path, int rounds, const EmbreeDevice& device, const Table& table) {
-    const Scene scene = loadScene(path);
-    const Builder& builder = builders().front();
-    double unitCost = 0, defaultCost = 0;
-    {
-        BuildOptions unit;
-        unit.costs = {1, 1};
-        unitCost = sahCost(builder.function(scene, unit), unit.costs);
-        defaultCost = sahCost(builder.function(scene, {}), {});
-    }
-    Samples ours, embrees;
-    for (int round = 0; round < rounds; ++round) {
-        {
-            Bvh bvh;
-            ours.add(timeOf([&] { bvh = builder.function(scene, {}); }));
+/// A builder, then any number of restructurers.
+struct Chain {
+    struct Step {
+        const Restructurer* restructurer;
+        uint32_t iterations;
+    };
+    std::string name;
+    const Builder* builder;
+    std::vector<Step> steps;
+
+    explicit Chain(const std::string& text) : name(text) {
+        size_t end = std::min(text.find('+'), text.size());
+        builder = &choose(builders(), "builder", text.substr(0, end));
+        while (end < text.size()) {
+            const size_t begin = end + 1;
+            end = std::min(text.find('+', begin), text.size());
+            const std::string step = text.substr(begin, end - begin);
+            const size_t colon = std::min(step.find(':'), step.size());
+            const int iterations = colon < step.size() ? std::atoi(step.c_str() + colon + 1) : 0;
+            steps.push_back(
+                {&choose(restructurers(), "method", step.substr(0, colon)), uint32_t(iterations)});
         }
-        EmbreeScene embree(device, scene);
-        embrees.add(timeOf([&] { embree.commit(); }));
     }
-    table.row({path.filename().string(), std::to_string(scene.triangles.size()),
-               number(ours.medianWall() * 1e3, 1), number(embrees.medianWall() * 1e3, 1),
-               number(ours.medianWall() / embrees.medianWall(), 2),
-               number(ours.medianProcessor() / embrees.medianProcessor(), 2), number(unitCost, 2),
-               number(defaultCost, 2)});
+};
+
+std::vector<Chain> allChains() {
+    std::vector<Chain> chains;
+    for (const Builder& builder : builders()) chains.emplace_back(std::string(builder.name));
+    for (const Restructurer& restructurer : restructurers())
+        chains.emplace_back(std::string(builders()[0].name) + "+" + std::string(restructurer.name));
+    return chains;
+}
+
+struct Measured {
+    Samples build, restructure;
+    double cost = 0, references = 0;
+};
+
+void run(const Chain& chain, const Scene& scene, Measured& measured) {
+    BuildOptions build;
+    RestructureOptions restructure;
+    build.costs = restructure.costs = {1, 1};
+    Bvh bvh;
+    measured.build.add(timeOf([&] { bvh = chain.builder->function(scene, build); }));
+    measured.restructure.add(timeOf([&] {
+        for (const Chain::Step& step : chain.steps) {
+            restructure.iterations = step.iterations;
+            bvh = step.restructurer->function(scene, bvh, restructure).bvh;
+        }
+    }));
+    measured.cost = sahCost(bvh, {1, 1});
+    measured.references = double(bvh.primitives.size()) / double(scene.triangles.size());
+}
+
+struct EmbreeQuality {
+    const char* name;
+    RTCBuildQuality quality;
+};
+constexpr EmbreeQuality kEmbree[] = {{"embree low", RTC_BUILD_QUALITY_LOW},
+                                     {"embree medium", RTC_BUILD_QUALITY_MEDIUM},
+                                     {"embree high", RTC_BUILD_QUALITY_HIGH}};
+
+void measure(const std::filesystem::path& path, int rounds, const std::vector<Chain>& chains,
+             const EmbreeDevice& device) {
+    const Scene scene = loadScene(path);
+    std::printf("%s, %zu triangles\n", path.filename().c_str(), scene.triangles.size());
+    std::vector<Measured> ours(chains.size());
+    Samples embrees[std::size(kEmbree)];
+    for (int round = 0; round < rounds; ++round) {
+        for (size_t i = 0; i < chains.size(); ++i) run(chains[i], scene, ours[i]);
+        for (size_t i = 0; i < std::size(kEmbree); ++i) {
+            EmbreeScene embree(device, scene, kEmbree[i].quality);
+            embrees[i].add(timeOf([&] { embree.commit(); }));
+        }
+    }
+
+    const double medium = embrees[1].medianWall();
+    const Table table({"chain", "ms", "restructure", "to medium", "cpu ms", "cost 1/1", "references"});
+    for (size_t i = 0; i < chains.size(); ++i) {
+        const Measured& m = ours[i];
+        const double total = m.build.medianWall() + m.restructure.medianWall();
+        table.row({chains[i].name, number(total * 1e3, 1), number(m.restructure.medianWall() * 1e3, 1),
+                   number(total / medium, 2),
+                   number((m.build.medianProcessor() + m.restructure.medianProcessor()) * 1e3, 1),
+                   number(m.cost, 2), number(m.references, 3)});
+    }
+    for (size_t i = 0; i < std::size(kEmbree); ++i)
+        table.row({kEmbree[i].name, number(embrees[i].medianWall() * 1e3, 1), "",
+                   number(embrees[i].medianWall() / medium, 2),
+                   number(embrees[i].medianProcessor() * 1e3, 1)});
+    std::printf("\n");
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-    const Arguments options(count, arguments);
-    if (options.scenes.empty()) {
-        std::fprintf(stderr, "usage: build_bench [--rounds N] [--threads N] SCENE...\n");
-        return 1;
-    }
     try {
+        std::vector<std::string> chainNames;
+        const Arguments options(count, arguments, "--chain", &chainNames);
+        if (options.scenes.empty()) {
+            std::fprintf(stderr,
+                         "usage: build_bench [--rounds N] [--threads N] "
+                         "[--chain BUILDER[+METHOD[:ITERATIONS]]]... SCENE...\n");
+            return 1;
+        }
+        std::vector<Chain> chains;
+        for (const std::string& name : chainNames) chains.emplace_back(name);
+        if (chains.empty()) chains = allChains();
         const ThreadLimit limit(options.threads);
         const EmbreeDevice device(options.threads);
-        const Table table(
-            {"scene", "triangles", "ms", "embree ms", "ratio", "cpu ratio", "cost 1/1", "cost 1.2/1"});
-        for (const auto& path : options.scenes) measure(path, options.rounds, device, table);
+        for (const auto& path : options.scenes) measure(path, options.rounds, chains, device);
     } catch (const Error& error) {
         std::fprintf(stderr, "build_bench: %s\n", error.what());
         return int(error.kind());

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Two builds of the tools must write the same bytes: containers of every builder, layout, form and codec, and hits of every ray
+# Two builds of the tools must write the same bytes: containers of every builder, restructurer, layout, form and codec, and hits of every ray
 # set, over the sample scenes. Also with one thread against all. Usage: same_bytes.sh TOOLS_DIRECTORY OTHER_TOOLS_DIRECTORY
 set -euo pipefail
 
@@ -24,6 +24,9 @@ run() { # TOOLS THREADS OUTPUT
         name=$output/$(basename "$scene")
         for builder in "${builders[@]}"; do
             "$tools/bvh-build" "$scene" --builder "$builder" -j "$threads" -o "$name.$builder.bvhx"
+            for method in "${methods[@]}"; do
+                "$tools/bvh-restructure" "$name.$builder.bvhx" --method "$method" -j "$threads" -o "$name.$builder.$method.bvhx"
+            done
         done
         for layout in "${layouts[@]}"; do
             "$tools/bvh-relayout" "$name.${builders[0]}.bvhx" --layout "$layout" -j "$threads" -o "$name.$layout.bvhx"
@@ -43,11 +46,12 @@ run() { # TOOLS THREADS OUTPUT
 }
 
 mapfile -t builders < <(choices bvh-build --builder)
+mapfile -t methods < <(choices bvh-restructure --method)
 mapfile -t layouts < <(choices bvh-relayout --layout)
 mapfile -t forms < <(choices bvh-compress --form)
 mapfile -t codecs < <(choices bvh-compress --codec)
 mapfile -t ray_sets < <(choices bvh-trace --rays)
-for list in builders layouts forms codecs ray_sets; do
+for list in builders methods layouts forms codecs ray_sets; do
     declare -n names=$list
     [ ${#names[@]} -gt 0 ] || { echo "same_bytes.sh: --help lists no $list"; exit 1; }
 done

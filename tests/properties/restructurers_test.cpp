@@ -55,43 +55,52 @@ class EveryRestructurer : public testing::TestWithParam<Case> {};
 TEST_P(EveryRestructurer, keepsTheInvariantsAndLowersTheCost) {
     const auto& [restructurer, testScene] = GetParam();
     const Scene scene = testScene->make();
+    struct Setting {
+        uint32_t leafSize;
+        SahCosts costs;
+        bool collapse;
+    };
+    static constexpr Setting kSettings[] = {{1, {}, true},
+                                            {1, {1, 1}, false},
+                                            {4, {1, 1}, true},
+                                            {4, {1, 1000}, false},
+                                            {4, {1000, 1}, true},
+                                            {kMaxLeafSize, {1000, 1}, true},
+                                            {kMaxLeafSize, {}, false}};
     for (const Builder& builder : builders())
-        for (const uint32_t leafSize : {1u, 4u, kMaxLeafSize})
-            for (const SahCosts costs : {SahCosts{}, SahCosts{1, 1}, SahCosts{1000, 1}, SahCosts{1, 1000}})
-                for (const bool collapse : {true, false}) {
-                    SCOPED_TRACE(testing::Message()
-                                 << builder.name << " leaf " << leafSize << " costs " << costs.traversal
-                                 << "/" << costs.intersection << (collapse ? "" : " not collapsed"));
-                    const Bvh before = builder.function(scene, {.costs = costs, .maxLeafSize = leafSize});
-                    RestructureOptions options;
-                    options.costs = costs;
-                    options.collapse = collapse;
-                    const Restructured result = restructurer->function(scene, before, options);
-                    ASSERT_NO_FATAL_FAILURE(expectBetter(scene, before, result.bvh, options));
-                }
+        for (const auto& [leafSize, costs, collapse] : kSettings) {
+            SCOPED_TRACE(testing::Message()
+                         << builder.name << " leaf " << leafSize << " costs " << costs.traversal << "/"
+                         << costs.intersection << (collapse ? "" : " not collapsed"));
+            const Bvh before = builder.function(scene, {.costs = costs, .maxLeafSize = leafSize});
+            RestructureOptions options;
+            options.costs = costs;
+            options.collapse = collapse;
+            const Restructured result = restructurer->function(scene, before, options);
+            ASSERT_NO_FATAL_FAILURE(expectBetter(scene, before, result.bvh, options));
+        }
 }
 
 TEST_P(EveryRestructurer, takesItsOptionsAtTheirLimits) {
     const auto& [restructurer, testScene] = GetParam();
     const Scene scene = testScene->make();
     const Bvh before = test::shuffledTree(builders()[0].function(scene, {.costs = {}}), 7);
-    for (const uint32_t treeletSize : {0u, 4u, 8u})
-        for (const uint32_t gamma : {0u, 1u, 3u, 100u})
-            for (const uint32_t maxLeafSize : {0u, 1u, 8u, kMaxLeafSize}) {
-                RestructureOptions options;
-                options.treeletSize = treeletSize;
-                options.gamma = gamma;
-                options.iterations = 2;
-                options.maxLeafSize = maxLeafSize;
-                options.recordCosts = true;
-                const Restructured result = restructurer->function(scene, before, options);
-                ASSERT_NO_FATAL_FAILURE(expectBetter(scene, before, result.bvh, options));
-                // What is recorded last is what came out, unless the given tree was cheaper.
-                if (result.iterations.empty()) continue;
-                EXPECT_NEAR(sahCost(result.bvh, options.costs),
-                            std::min(result.iterations.back().sahCost, sahCost(before, options.costs)),
-                            1e-6 * sahCost(before, options.costs));
-            }
+    for (const auto& [treeletSize, gamma] : {std::pair{0u, 0u}, {3u, 1u}, {4u, 100u}, {8u, 3u}})
+        for (const uint32_t maxLeafSize : {0u, 1u, kMaxLeafSize}) {
+            RestructureOptions options;
+            options.treeletSize = treeletSize;
+            options.gamma = gamma;
+            options.iterations = 2;
+            options.maxLeafSize = maxLeafSize;
+            options.recordCosts = true;
+            const Restructured result = restructurer->function(scene, before, options);
+            ASSERT_NO_FATAL_FAILURE(expectBetter(scene, before, result.bvh, options));
+            // What is recorded last is what came out, unless the given tree was cheaper.
+            if (result.iterations.empty()) continue;
+            EXPECT_NEAR(sahCost(result.bvh, options.costs),
+                        std::min(result.iterations.back().sahCost, sahCost(before, options.costs)),
+                        1e-6 * sahCost(before, options.costs));
+        }
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryRestructurer, testing::ValuesIn(allCases()), [](const auto& test) {

@@ -4,40 +4,13 @@
 // whole chain; `restructure` is the part of it that the restructurers took. Costs are for 1/1, those that
 // papers report, and the tree is built for them too.
 
-#include "bench_common.h"
-#include "build/builders.h"
+#include "chain.h"
 #include "core/parallel.h"
-#include "restructure/restructurers.h"
 
 namespace {
 
 using namespace bvhio;
 using namespace bvhio::bench;
-
-/// A builder, then any number of restructurers.
-struct Chain {
-    struct Step {
-        const Restructurer* restructurer;
-        uint32_t iterations;
-    };
-    std::string name;
-    const Builder* builder;
-    std::vector<Step> steps;
-
-    explicit Chain(const std::string& text) : name(text) {
-        size_t end = std::min(text.find('+'), text.size());
-        builder = &choose(builders(), "builder", text.substr(0, end));
-        while (end < text.size()) {
-            const size_t begin = end + 1;
-            end = std::min(text.find('+', begin), text.size());
-            const std::string step = text.substr(begin, end - begin);
-            const size_t colon = std::min(step.find(':'), step.size());
-            const int iterations = colon < step.size() ? std::atoi(step.c_str() + colon + 1) : 0;
-            steps.push_back(
-                {&choose(restructurers(), "method", step.substr(0, colon)), uint32_t(iterations)});
-        }
-    }
-};
 
 std::vector<Chain> allChains() {
     std::vector<Chain> chains;
@@ -53,18 +26,11 @@ struct Measured {
 };
 
 void run(const Chain& chain, const Scene& scene, Measured& measured) {
-    BuildOptions build;
-    RestructureOptions restructure;
-    build.costs = restructure.costs = {1, 1};
+    constexpr SahCosts kCosts{1, 1};
     Bvh bvh;
-    measured.build.add(timeOf([&] { bvh = chain.builder->function(scene, build); }));
-    measured.restructure.add(timeOf([&] {
-        for (const Chain::Step& step : chain.steps) {
-            restructure.iterations = step.iterations;
-            bvh = step.restructurer->function(scene, bvh, restructure).bvh;
-        }
-    }));
-    measured.cost = sahCost(bvh, {1, 1});
+    measured.build.add(timeOf([&] { bvh = chain.build(scene, kCosts); }));
+    measured.restructure.add(timeOf([&] { bvh = chain.restructure(scene, std::move(bvh), kCosts); }));
+    measured.cost = sahCost(bvh, kCosts);
     measured.references = double(bvh.primitives.size()) / double(scene.triangles.size());
 }
 
@@ -95,7 +61,7 @@ void measure(const std::filesystem::path& path, int rounds, const std::vector<Ch
     for (size_t i = 0; i < chains.size(); ++i) {
         const Measured& m = ours[i];
         const double total = m.build.medianWall() + m.restructure.medianWall();
-        table.row({chains[i].name, number(total * 1e3, 1), number(m.restructure.medianWall() * 1e3, 1),
+        table.row({chains[i].name(), number(total * 1e3, 1), number(m.restructure.medianWall() * 1e3, 1),
                    number(total / medium, 2),
                    number((m.build.medianProcessor() + m.restructure.medianProcessor()) * 1e3, 1),
                    number(m.cost, 2), number(m.references, 3)});

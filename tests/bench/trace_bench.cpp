@@ -1,20 +1,24 @@
 // How fast rays are traced, against Embree's robust mode, on one thread: closest hits of primary and diffuse
-// rays through the binned tree in the aabb form. Runs of both are interleaved and medians taken, so a busy
-// machine hurts both alike. Hits must agree with Embree's except where t differs by less than 1e-5 of itself.
+// rays through the trees of one or several chains, in the aabb form. Runs of all are interleaved and medians
+// taken, so a busy machine hurts all alike. Hits must agree with Embree's except where t differs by less than
+// 1e-5 of itself.
 //
-//     trace_bench [--rounds N] [--resolution N] [--intersection-cost C] SCENE...
+//     trace_bench [--rounds N] [--resolution N] [--intersection-cost C] [--chain
+//     BUILDER[+METHOD[:ITERATIONS]]]...
+//                 SCENE...
 //
+// Without --chain: the default builder's tree. `to first` is the rate over that of the first chain.
 // The trees are built with an intersection cost of 0.25 unless told otherwise: four triangles are tested at a
 // time, so leaves of up to four cost little more than leaves of one. The default of bvh-build, 1, is the
 // field's convention, which costs are compared by.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "bench_common.h"
-#include "build/builders.h"
+#include "chain.h"
 #include "core/parallel.h"
 #include "trace/ray_sets.h"
 #include "trace/trace.h"
@@ -61,56 +65,91 @@ struct Options {
     int rounds = 5;
     uint32_t resolution = 1024;
     float intersectionCost = 0.25f;
-    std::vector<std::string> scenes;
+    std::vector<std::string> chains;
+    std::vector<std::filesystem::path> scenes;
 };
 
-int run(const Options& options) {
+constexpr const char* kRaySets[] = {"primary", "diffuse"};
+
+/// Ratios over all scenes.
+struct Summary {
+    double logRatio = 0, logToFirst = 0, worst = 1e9;
+};
+
+/// A chain's tree in one scene.
+struct Contestant {
+    EncodedBvh bvh;
+    Tracer tracer;
+    std::vector<Hit> hits;
+    std::vector<double> seconds;
+
+    Contestant(const Chain& chain, const Scene& scene, const SahCosts& costs)
+        : bvh(AabbForm(chain.restructure(scene, chain.build(scene, costs), costs))), tracer(scene, bvh) {}
+};
+
+void run(const Options& options, const std::vector<Chain>& chains) {
     const ThreadLimit oneThread(1);
     const EmbreeDevice device(1);
-    BuildOptions buildOptions;
-    buildOptions.costs.intersection = options.intersectionCost;
-    const char* const kRaySets[] = {"primary", "diffuse"};
-    double logRatios[2] = {0, 0}, worst[2] = {1e9, 1e9};
-    std::printf("%-22s %-8s %9s %11s %11s %7s   %s\n", "scene", "rays", "count", "ours Mr/s", "Embree Mr/s",
-                "ratio", "other t / hit only by us / only by Embree");
-    for (const std::string& path : options.scenes) {
+    SahCosts costs;
+    costs.intersection = options.intersectionCost;
+    std::vector<Summary> summaries[std::size(kRaySets)];
+    for (auto& list : summaries) list.resize(chains.size());
+    std::printf("%-22s %-8s %-26s %9s %11s %11s %7s %9s   %s\n", "scene", "rays", "chain", "count",
+                "ours Mr/s", "Embree Mr/s", "ratio", "to first", "other t / hit only by us / only by Embree");
+    for (const auto& path : options.scenes) {
         const Scene scene = loadScene(path);
-        const EncodedBvh bvh = AabbForm(builders()[0].function(scene, buildOptions));
-        const Tracer tracer(scene, bvh);
+        std::vector<std::unique_ptr<Contestant>> contestants;
+        for (const Chain& chain : chains)
+            contestants.push_back(std::make_unique<Contestant>(chain, scene, costs));
         EmbreeScene embree(device, scene, RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_ROBUST);
         embree.commit();
         const ClosestHits closestHits = [&](std::span<const Ray> rays) {
             std::vector<Hit> hits(rays.size());
-            tracer.closestHits(rays, hits);
+            contestants[0]->tracer.closestHits(rays, hits);
             return hits;
         };
-        for (int set = 0; set < 2; ++set) {
+        for (size_t set = 0; set < std::size(kRaySets); ++set) {
             RaySetOptions rayOptions;
             rayOptions.resolution = {options.resolution, options.resolution};
             const RaySet raySet = makeRaySet(kRaySets[set], scene, rayOptions, closestHits);
             const std::span<const Ray> rays = raySet.rays;
-            std::vector<Hit> ours(rays.size()), theirs(rays.size());
-            std::vector<double> ourSeconds, theirSeconds;
+            std::vector<Hit> theirs(rays.size());
+            std::vector<double> theirSeconds;
+            for (auto& c : contestants) {
+                c->hits.resize(rays.size());
+                c->seconds.clear();
+            }
             for (int round = 0; round < options.rounds; ++round) {
-                ourSeconds.push_back(timeOf([&] { tracer.closestHits(rays, ours); }).processor);
+                for (auto& c : contestants)
+                    c->seconds.push_back(timeOf([&] { c->tracer.closestHits(rays, c->hits); }).processor);
                 theirSeconds.push_back(timeOf([&] { embreeClosestHits(embree, rays, theirs); }).processor);
             }
-            const double ratio = median(theirSeconds) / median(ourSeconds);
-            logRatios[set] += std::log(ratio);
-            worst[set] = std::min(worst[set], ratio);
-            const Agreement agreement = compareHits(ours, theirs);
-            const double millions = double(rays.size()) * 1e-6;
-            const std::string name = path.substr(path.rfind('/') + 1);
-            std::printf("%-22s %-8s %9zu %11.3f %11.3f %7.3f   %zu / %zu / %zu\n", name.c_str(),
-                        kRaySets[set], rays.size(), millions / median(ourSeconds),
-                        millions / median(theirSeconds), ratio, agreement.differentT, agreement.onlyOurs,
-                        agreement.onlyEmbree);
+            for (size_t i = 0; i < chains.size(); ++i) {
+                const double seconds = median(contestants[i]->seconds);
+                const double ratio = median(theirSeconds) / seconds;
+                const double toFirst = median(contestants[0]->seconds) / seconds;
+                Summary& summary = summaries[set][i];
+                summary.logRatio += std::log(ratio);
+                summary.logToFirst += std::log(toFirst);
+                summary.worst = std::min(summary.worst, ratio);
+                const Agreement agreement = compareHits(contestants[i]->hits, theirs);
+                const double millions = double(rays.size()) * 1e-6;
+                std::printf("%-22s %-8s %-26s %9zu %11.3f %11.3f %7.3f %9.3f   %zu / %zu / %zu\n",
+                            path.filename().c_str(), kRaySets[set], chains[i].name().c_str(), rays.size(),
+                            millions / seconds, millions / median(theirSeconds), ratio, toFirst,
+                            agreement.differentT, agreement.onlyOurs, agreement.onlyEmbree);
+                std::fflush(stdout);
+            }
         }
     }
-    for (int set = 0; set < 2; ++set)
-        std::printf("%-8s geometric mean of ratios %.3f, worst %.3f\n", kRaySets[set],
-                    std::exp(logRatios[set] / double(options.scenes.size())), worst[set]);
-    return 0;
+    const auto count = double(options.scenes.size());
+    for (size_t set = 0; set < std::size(kRaySets); ++set)
+        for (size_t i = 0; i < chains.size(); ++i) {
+            const Summary& summary = summaries[set][i];
+            std::printf("%-8s %-26s geometric mean of ratios %.3f, worst %.3f; to first %.3f\n",
+                        kRaySets[set], chains[i].name().c_str(), std::exp(summary.logRatio / count),
+                        summary.worst, std::exp(summary.logToFirst / count));
+        }
 }
 
 }  // namespace
@@ -125,15 +164,23 @@ int main(int argc, char** argv) {
             options.resolution = uint32_t(std::max(1, std::atoi(argv[++i])));
         else if (argument == "--intersection-cost" && i + 1 < argc)
             options.intersectionCost = std::max(0.0f, float(std::atof(argv[++i])));
+        else if (argument == "--chain" && i + 1 < argc)
+            options.chains.emplace_back(argv[++i]);
         else
-            options.scenes.push_back(argument);
+            options.scenes.emplace_back(argument);
     }
     if (options.scenes.empty()) {
-        std::fprintf(stderr, "trace_bench [--rounds N] [--resolution N] [--intersection-cost C] SCENE...\n");
+        std::fprintf(stderr,
+                     "trace_bench [--rounds N] [--resolution N] [--intersection-cost C] "
+                     "[--chain BUILDER[+METHOD[:ITERATIONS]]]... SCENE...\n");
         return 1;
     }
+    if (options.chains.empty()) options.chains.emplace_back(builders()[0].name);
     try {
-        return run(options);
+        std::vector<Chain> chains;
+        for (const std::string& chain : options.chains) chains.emplace_back(chain);
+        run(options, chains);
+        return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "trace_bench: %s\n", error.what());
         return 1;

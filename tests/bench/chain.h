@@ -1,0 +1,55 @@
+// A builder, then any number of restructurers: BUILDER[+METHOD[:ITERATIONS]]...
+#pragma once
+
+#include "bench_common.h"
+#include "build/builders.h"
+#include "restructure/restructurers.h"
+
+namespace bvhio::bench {
+
+class Chain {
+  public:
+    /// Throws Error{usage} for names that no table has.
+    explicit Chain(const std::string& text) : name_(text) {
+        size_t end = std::min(text.find('+'), text.size());
+        builder_ = &choose(builders(), "builder", text.substr(0, end));
+        while (end < text.size()) {
+            const size_t begin = end + 1;
+            end = std::min(text.find('+', begin), text.size());
+            const std::string step = text.substr(begin, end - begin);
+            const size_t colon = std::min(step.find(':'), step.size());
+            const int iterations = colon < step.size() ? std::atoi(step.c_str() + colon + 1) : 0;
+            steps_.push_back(
+                {&choose(restructurers(), "method", step.substr(0, colon)), uint32_t(iterations)});
+        }
+    }
+
+    const std::string& name() const { return name_; }
+
+    Bvh build(const Scene& scene, const SahCosts& costs) const {
+        BuildOptions options;
+        options.costs = costs;
+        return builder_->function(scene, options);
+    }
+
+    Bvh restructure(const Scene& scene, Bvh bvh, const SahCosts& costs) const {
+        RestructureOptions options;
+        options.costs = costs;
+        for (const Step& step : steps_) {
+            options.iterations = step.iterations;
+            bvh = step.restructurer->function(scene, bvh, options).bvh;
+        }
+        return bvh;
+    }
+
+  private:
+    struct Step {
+        const Restructurer* restructurer;
+        uint32_t iterations;
+    };
+    std::string name_;
+    const Builder* builder_;
+    std::vector<Step> steps_;
+};
+
+}  // namespace bvhio::bench

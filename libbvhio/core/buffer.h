@@ -29,6 +29,9 @@ class Buffer {
     T& operator[](size_t i) { return data_[i]; }
     const T& operator[](size_t i) const { return data_[i]; }
 
+    /// Keeps the first `size` elements. The rest, if nothing was written there, never took memory.
+    void truncate(size_t size) { size_ = size; }
+
     /// Hands the array over as an immutable one; nothing is copied.
     SharedArray<T> share() && { return {std::move(memory_), {data_, size_}}; }
 

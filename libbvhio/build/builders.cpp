@@ -1,6 +1,7 @@
 #include "build/builders.h"
 
 #include "build/binned.h"
+#include "build/lbvh.h"
 #include "build/median.h"
 
 namespace bvhio {
@@ -8,6 +9,7 @@ namespace bvhio {
 std::span<const Builder> builders() {
     static constexpr Builder kTable[] = {
         {"binned", "binned SAH on all threads: fast, and good trees", buildBinned},
+        {"lbvh", "order along the Morton curve: built several times faster, worse trees", buildLbvh},
         {"median", "object median along the longest axis; no SAH, the plainest tree", buildMedian},
     };
     return kTable;

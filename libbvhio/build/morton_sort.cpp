@@ -1,0 +1,225 @@
+// A radix sort from the most significant bits down, which moves indices alone: codes stay where they are, and
+// triangles of a mesh that are near in space tend to be near in memory. A run of indices is distributed over
+// buckets by its next bits until it is short; then its codes, without the bits that all share, fit one word
+// with their places in the run, and such words are sorted in the cache.
+
+#include "build/morton_sort.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.h"
+
+namespace bvhio {
+namespace {
+
+constexpr uint32_t kDigit = 12, kBuckets = 1u << kDigit;
+constexpr uint32_t kShort = 1u << 13;  // longest run that is sorted in the cache
+constexpr uint32_t kTask = 1u << 14;   // indices that a task sorts, at least
+constexpr size_t kGrain = 1u << 15;    // indices that a task distributes
+
+/// Indices [begin, begin + count) whose codes share the `common` leading bits; in which of the two arrays.
+struct Run {
+    uint32_t begin, count, common, side;
+};
+
+/// Sorts keys, no two equal, by the digits that matter and then by insertion.
+class KeySort {
+  public:
+    /// `differing`: the bits that not all keys have in common. The result may be in either array.
+    static uint64_t* sort(uint64_t* keys, uint64_t* spare, uint32_t count, uint64_t differing) {
+        if (count > kFew) {
+            const uint32_t passes = count > kMany ? 3 : 2;
+            const int lowest = std::max(0, int(std::bit_width(differing)) - int(8 * passes));
+            keys = distribute(keys, spare, count, uint32_t(lowest), passes);
+        }
+        insert(keys, count);
+        return keys;
+    }
+
+  private:
+    static constexpr uint32_t kFew = 32, kMany = 1024;
+
+    /// Orders by `passes` digits of 8 bits from bit `lowest` up.
+    static uint64_t* distribute(uint64_t* keys, uint64_t* spare, uint32_t count, uint32_t lowest,
+                                uint32_t passes) {
+        uint32_t counts[3][256] = {};
+        for (uint32_t i = 0; i < count; ++i)
+            for (uint32_t pass = 0; pass < passes; ++pass)
+                ++counts[pass][keys[i] >> (lowest + 8 * pass) & 255];
+        for (uint32_t pass = 0; pass < passes; ++pass) {
+            uint32_t* next = counts[pass];
+            uint32_t sum = 0;
+            for (uint32_t digit = 0; digit < 256; ++digit) sum += std::exchange(next[digit], sum);
+            const uint32_t shift = lowest + 8 * pass;
+            for (uint32_t i = 0; i < count; ++i) spare[next[keys[i] >> shift & 255]++] = keys[i];
+            std::swap(keys, spare);
+        }
+        return keys;
+    }
+
+    /// Few keys are out of place now, and not far; if they are, because many share all those digits, sorts
+    /// otherwise.
+    static void insert(uint64_t* keys, uint32_t count) {
+        uint32_t steps = 16 * count;
+        for (uint32_t i = 1; i < count; ++i) {
+            const uint64_t key = keys[i];
+            uint32_t to = i;
+            while (to > 0 && keys[to - 1] > key) {
+                keys[to] = keys[to - 1];
+                --to;
+            }
+            keys[to] = key;
+            if (i - to > steps) return std::sort(keys, keys + count);
+            steps -= i - to;
+        }
+    }
+};
+
+class CodeSort {
+  public:
+    CodeSort(std::span<const uint64_t> codes, uint32_t* triangles, uint8_t* levels)
+        : codes_(codes), scratch_(codes.size()), levels_(levels), sides_{triangles, scratch_.data()} {}
+
+    void sort() {
+        const auto count = uint32_t(codes_.size());
+        parallelChunks(count, kGrain, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) sides_[1][i] = uint32_t(i);
+        });
+        Workspace work;
+        sort({0, count, 0, 1}, work);
+    }
+
+  private:
+    /// For one short run at a time.
+    struct Workspace {
+        std::vector<uint64_t> keys{std::vector<uint64_t>(2 * kShort)};
+        std::vector<uint32_t> indices{std::vector<uint32_t>(kShort)};
+    };
+
+    /// Afterwards the run is in sides_[0].
+    void sort(Run run, Workspace& work) {
+        // Places must fit in the bits that the common ones leave free.
+        const auto fits = [&] {
+            return uint32_t(std::bit_width(run.count - 1)) <= run.common + 64 - kMortonBits;
+        };
+        if (run.count <= kShort && fits()) return sortShort(run, work);
+        // Not for the whole order at once: it rarely shares much.
+        if (run.common > 0 || run.count <= kGrain) run.common = uint32_t(std::countl_zero(differing(run)));
+        if (run.common >= kMortonBits) return keepOrder(run);
+        if (run.count <= kShort && fits()) return sortShort(run, work);
+        distribute(run, work);
+    }
+
+    uint64_t differing(const Run& run) const {
+        const uint32_t* indices = sides_[run.side] + run.begin;
+        const uint64_t first = codes_[indices[0]];
+        uint64_t bits = 0;
+        for (uint32_t i = 1; i < run.count; ++i) bits |= codes_[indices[i]] ^ first;
+        return bits;
+    }
+
+    uint8_t tieLevel(uint32_t place) const {
+        return uint8_t(kMortonBits + uint32_t(std::countl_zero(place ^ (place + 1))));
+    }
+
+    uint8_t levelBetween(uint32_t place, uint64_t code, uint64_t next) const {
+        return code == next ? tieLevel(place) : uint8_t(std::countl_zero(code ^ next));
+    }
+
+    /// Equal codes stand in the order of ids already.
+    void keepOrder(const Run& run) {
+        if (run.side != 0) std::copy_n(sides_[run.side] + run.begin, run.count, sides_[0] + run.begin);
+        for (uint32_t i = run.begin; i + 1 < run.begin + run.count; ++i) levels_[i] = tieLevel(i);
+    }
+
+    void sortShort(const Run& run, Workspace& work) {
+        const uint32_t count = run.count;
+        uint32_t* const to = sides_[0] + run.begin;
+        uint32_t* const indices = work.indices.data();
+        std::copy_n(sides_[run.side] + run.begin, count, indices);
+        uint64_t* keys = work.keys.data();
+        uint64_t differing = 0;
+        for (uint32_t i = 0; i < count; ++i) {
+            keys[i] = codes_[indices[i]] << run.common | i;
+            differing |= keys[i] ^ keys[0];
+        }
+        keys = KeySort::sort(keys, keys + kShort, count, differing);
+        const uint64_t places = std::bit_ceil(count) - 1;
+        for (uint32_t i = 0; i < count; ++i) to[i] = indices[keys[i] & places];
+        uint8_t* const levels = levels_ + run.begin;
+        for (uint32_t i = 0; i + 1 < count; ++i) {
+            const uint64_t bits = (keys[i] ^ keys[i + 1]) & ~places;
+            levels[i] =
+                bits == 0 ? tieLevel(run.begin + i) : uint8_t(int(run.common) + std::countl_zero(bits));
+        }
+    }
+
+    /// Moves the indices to the other array, ordered by the next bits, and sorts what shares them.
+    void distribute(const Run& run, Workspace& work) {
+        const uint32_t* from = sides_[run.side] + run.begin;
+        uint32_t* const to = sides_[run.side ^ 1] + run.begin;
+        const auto bucketOf = [&](uint32_t index) {
+            return uint32_t(codes_[index] << run.common >> (64 - kDigit));
+        };
+        const size_t chunks = (run.count + kGrain - 1) / kGrain;
+        std::vector<uint32_t> next(chunks * kBuckets);  // where each chunk's next index of each bucket goes
+        parallelChunks(run.count, kGrain, [&](size_t begin, size_t end) {
+            uint32_t* const counts = next.data() + begin / kGrain * kBuckets;
+            for (size_t i = begin; i < end; ++i) ++counts[bucketOf(from[i])];
+        });
+        std::vector<Run> runs;
+        const uint32_t common = std::min(run.common + kDigit, kMortonBits);
+        uint32_t sum = 0;
+        for (uint32_t bucket = 0; bucket < kBuckets; ++bucket) {
+            const uint32_t begin = sum;
+            for (size_t chunk = 0; chunk < chunks; ++chunk)
+                sum += std::exchange(next[chunk * kBuckets + bucket], sum);
+            if (sum > begin) runs.push_back({run.begin + begin, sum - begin, common, run.side ^ 1});
+        }
+        parallelChunks(run.count, kGrain, [&](size_t begin, size_t end) {
+            uint32_t* const places = next.data() + begin / kGrain * kBuckets;
+            for (size_t i = begin; i < end; ++i) to[places[bucketOf(from[i])]++] = from[i];
+        });
+        sortAll(runs, work);
+        for (size_t i = 0; i + 1 < runs.size(); ++i) {
+            const uint32_t last = runs[i + 1].begin - 1;
+            levels_[last] = levelBetween(last, codes_[sides_[0][last]], codes_[sides_[0][last + 1]]);
+        }
+    }
+
+    void sortAll(const std::vector<Run>& runs, Workspace& work) {
+        TaskGroup group;
+        size_t first = 0;
+        uint32_t waiting = 0;
+        for (size_t i = 0; i < runs.size(); ++i) {
+            waiting += runs[i].count;
+            if (i + 1 == runs.size()) {
+                for (size_t k = first; k <= i; ++k) sort(runs[k], work);
+            } else if (waiting >= kTask) {
+                group.run([this, &runs, first, i] {
+                    Workspace own;
+                    for (size_t k = first; k <= i; ++k) sort(runs[k], own);
+                });
+                first = i + 1;
+                waiting = 0;
+            }
+        }
+        group.wait();
+    }
+
+    std::span<const uint64_t> codes_;
+    Buffer<uint32_t> scratch_;
+    uint8_t* const levels_;
+    uint32_t* const sides_[2];
+};
+
+}  // namespace
+
+void sortCodes(std::span<const uint64_t> codes, uint32_t* triangles, uint8_t* levels) {
+    CodeSort(codes, triangles, levels).sort();
+}
+
+}  // namespace bvhio

@@ -1,0 +1,10 @@
+// The default restructurer: subtrees move to where they cost least.
+#pragma once
+
+#include "restructure/restructurers.h"
+
+namespace bvhio {
+
+Restructured restructureReinsertion(const Scene& scene, const Bvh& bvh, const RestructureOptions& options);
+
+}  // namespace bvhio

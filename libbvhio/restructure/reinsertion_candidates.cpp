@@ -1,0 +1,95 @@
+#include "restructure/reinsertion_candidates.h"
+
+#include <bit>
+#include <cstring>
+
+#include "core/parallel.h"
+
+namespace bvhio {
+namespace {
+
+float halfAreaOf(const Node& node, float scale) {
+    const float x = (node.bounds.max.x - node.bounds.min.x) * scale,
+                y = (node.bounds.max.y - node.bounds.min.y) * scale,
+                z = (node.bounds.max.z - node.bounds.min.z) * scale;
+    return x * y + y * z + z * x;
+}
+
+/// What removing a node from its parent can gain by the parent's going alone, and more for a small node that
+/// makes its parent large (Bittner et al. 2013, 3.3, look at such ratios too).
+float promise(float area, float parentArea) {
+    return parentArea > 0 ? (parentArea - area) * parentArea / (area + 0.01f * parentArea) : 0;
+}
+
+}  // namespace
+
+Candidates::Candidates(const TreeEditor& tree, float scale)
+    : tree_(tree), scale_(scale), flags_(tree.size()), promises_(tree.size()) {
+    flagAll();
+}
+
+void Candidates::flagAll() {
+    std::memset(flags_.data(), 1, flags_.size());
+}
+
+size_t Candidates::bytes() const {
+    return flags_.size() * (sizeof(uint8_t) + sizeof(float)) + selected_.capacity() * sizeof(uint32_t);
+}
+
+/// Rates the flagged slots of a chunk; adds them to bins of like promise and returns how many they are.
+size_t Candidates::rate(size_t begin, size_t end, uint32_t* bins) {
+    size_t count = 0;
+    for (size_t i = begin; i < end; ++i) {
+        promises_[i] = -1;
+        if (flags_[i] == 0 || i < 2) continue;
+        const float area = halfAreaOf(tree_[uint32_t(i)], scale_);
+        promises_[i] = promise(area, halfAreaOf(tree_[tree_.parent(uint32_t(i))], scale_));
+        ++bins[std::bit_cast<uint32_t>(promises_[i]) >> 19];
+        ++count;
+    }
+    return count;
+}
+
+const std::vector<uint32_t>& Candidates::select(size_t wanted) {
+    const size_t size = tree_.size(), chunks = (size + kGrain - 1) / kGrain;
+    bins_.assign(chunks * kBins, 0);
+    parallelChunks(size, kGrain, [&](size_t begin, size_t end) {
+        rate(begin, end, bins_.data() + begin / kGrain * kBins);
+    });
+    // All of the bins above the last one taken, and of that as many as are still wanted.
+    size_t last = kBins, above = 0, in = 0;
+    do {
+        above += in;
+        --last;
+        in = 0;
+        for (size_t chunk = 0; chunk < chunks; ++chunk) in += bins_[chunk * kBins + last];
+    } while (last > 0 && above + in < wanted);
+    size_t fromLast = std::min(in, wanted - above);
+    const float least = std::bit_cast<float>(uint32_t(last) << 19),
+                more = std::bit_cast<float>(uint32_t(last + 1) << 19);
+    std::vector<size_t> ends(chunks), quotas(chunks);
+    size_t total = 0;
+    for (size_t chunk = 0; chunk < chunks; ++chunk) {
+        const uint32_t* bins = bins_.data() + chunk * kBins;
+        quotas[chunk] = std::min<size_t>(fromLast, bins[last]);
+        fromLast -= quotas[chunk];
+        total += quotas[chunk];
+        for (size_t bin = last + 1; bin < kBins; ++bin) total += bins[bin];
+        ends[chunk] = total;
+    }
+    selected_.resize(total);
+    parallelChunks(size, kGrain, [&](size_t begin, size_t end) {
+        size_t quota = quotas[begin / kGrain], at = begin == 0 ? 0 : ends[begin / kGrain - 1];
+        for (size_t i = begin; i < end; ++i) {
+            if (!(promises_[i] >= least)) continue;
+            if (!(promises_[i] >= more)) {
+                if (quota == 0) continue;
+                --quota;
+            }
+            selected_[at++] = uint32_t(i);
+        }
+    });
+    return selected_;
+}
+
+}  // namespace bvhio

@@ -1,0 +1,179 @@
+// Branch and bound as in Meister and Bittner 2018, 3.1: from a node up to the root, and from each ancestor
+// down into its other child. What a subtree below node y can gain at most is known on the way down: what its
+// removal freed, less what the ancestors of y down to y itself grow by, less its own area.
+
+#include "restructure/reinsertion_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "restructure/reinsertion_search.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace bvhio {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Four = hn::FixedTag<float, 4>;
+using FourV = hn::Vec<Four>;
+
+/// Pairs that a search looks at on its way down, and levels on its way up: typically some ten of each.
+constexpr uint32_t kMaxPairs = 2048, kMaxLevels = 256;
+/// A gain that is less than this part of the removed node's area may be rounding.
+constexpr float kLeastGain = 1e-6f;
+
+struct BoxV {
+    FourV low, high;
+
+    /// The fourth lanes hold whatever stands behind; of `high` zeros, since integers there are denormals.
+    static HWY_INLINE BoxV load(const Node& node) {
+        const Four d;
+        alignas(16) static constexpr uint32_t kThree[4] = {~0u, ~0u, ~0u, 0};
+        const float* lanes = &node.bounds.min.x;
+        return {hn::Load(d, lanes), hn::And(hn::LoadU(d, lanes + 3),
+                                            hn::BitCast(d, hn::Load(hn::RebindToUnsigned<Four>(), kThree)))};
+    }
+    friend HWY_INLINE BoxV unite(BoxV a, BoxV b) { return {hn::Min(a.low, b.low), hn::Max(a.high, b.high)}; }
+    HWY_INLINE FourV extent() const { return hn::Sub(high, low); }
+};
+
+/// Half areas of four boxes.
+HWY_INLINE void halfAreas(BoxV a, BoxV b, BoxV c, BoxV e, FourV scale, float* areas) {
+    const Four d;
+    const FourV ea = a.extent(), eb = b.extent(), ec = c.extent(), ee = e.extent();
+    const FourV lower0 = hn::InterleaveLower(d, ea, eb), lower1 = hn::InterleaveLower(d, ec, ee);
+    const FourV upper0 = hn::InterleaveUpper(d, ea, eb), upper1 = hn::InterleaveUpper(d, ec, ee);
+    const FourV x = hn::Mul(hn::ConcatLowerLower(d, lower1, lower0), scale);
+    const FourV y = hn::Mul(hn::ConcatUpperUpper(d, lower1, lower0), scale);
+    const FourV z = hn::Mul(hn::ConcatLowerLower(d, upper1, upper0), scale);
+    hn::Store(hn::Add(hn::Add(hn::Mul(x, y), hn::Mul(y, z)), hn::Mul(z, x)), d, areas);
+}
+
+class Search {
+  public:
+    Search(const TreeEditor& tree, float scale)
+        : tree_(tree), nodes_(&tree[0]), scale_(hn::Set(Four(), scale)) {}
+
+    HWY_INLINE Place find(uint32_t moved) {
+        const uint32_t parent = tree_.parent(moved), sibling = tree_.sibling(moved);
+        moved_ = BoxV::load(nodes_[moved]);
+        BoxV left = BoxV::load(nodes_[sibling]);  // by the moved node: what remains at the level reached
+        alignas(16) float areas[4];
+        halfAreas(moved_, left, BoxV::load(nodes_[parent]), left, scale_, areas);
+        movedArea_ = areas[0];
+        float removed = areas[2];  // the areas that removing the node frees
+        best_ = {removed * kLeastGain, 0};
+        pairsLeft_ = kMaxPairs;
+        if (!nodes_[sibling].isLeaf()) descend(nodes_[sibling].left(), areas[1]);
+        bool shrinks = true;
+        uint32_t at = parent;
+        for (uint32_t level = 0; at != 0 && level < kMaxLevels && pairsLeft_ != 0; ++level) {
+            const uint32_t other = tree_.sibling(at);
+            const bool worthwhile = removed - movedArea_ > best_.gain;
+            if (!shrinks && !worthwhile) break;
+            at = tree_.parent(at);
+            const BoxV box = BoxV::load(nodes_[other]), above = BoxV::load(nodes_[at]);
+            left = unite(left, box);
+            halfAreas(box, unite(box, moved_), above, left, scale_, areas);
+            if (worthwhile) {
+                const float gain = removed - areas[1];
+                consider(gain, other);
+                if (!nodes_[other].isLeaf()) descend(nodes_[other].left(), gain + areas[0]);
+            }
+            if (shrinks) {
+                removed += areas[2] - areas[3];
+                const Four d;
+                const auto same = hn::And(hn::Eq(left.low, above.low), hn::Eq(left.high, above.high));
+                alignas(16) static constexpr uint32_t kFourth[4] = {0, 0, 0, ~0u};
+                const auto fourth = hn::Load(hn::RebindToUnsigned<Four>(), kFourth);
+                shrinks = !hn::AllTrue(d, hn::Or(same, hn::MaskFromVec(hn::BitCast(d, fourth))));
+            }
+        }
+        return best_.beside != 0 ? best_ : Place();
+    }
+
+  private:
+    struct Open {
+        float bound;
+        uint32_t pair;
+    };
+
+    HWY_INLINE void consider(float gain, uint32_t beside) {
+        if (gain > best_.gain) best_ = {gain, beside};
+    }
+
+    /// Looks at the places below a node, whose children are `pair`; `bound` is what was removed less what the
+    /// nodes above the pair grow by.
+    HWY_INLINE void descend(uint32_t pair, float bound) {
+        if (!(bound - movedArea_ > best_.gain)) return;
+        uint32_t open = 0;
+        while (pairsLeft_ != 0) {
+            --pairsLeft_;
+            const BoxV a = BoxV::load(nodes_[pair]), b = BoxV::load(nodes_[pair + 1]);
+            alignas(16) float areas[4];
+            halfAreas(a, unite(a, moved_), b, unite(b, moved_), scale_, areas);
+            const float gainA = bound - areas[1], gainB = bound - areas[3];
+            consider(gainA, pair);
+            consider(gainB, pair + 1);
+            const float least = best_.gain + movedArea_;
+            Open first = openBelow(pair, gainA + areas[0]), second = openBelow(pair + 1, gainB + areas[2]);
+            if (first.bound < second.bound) std::swap(first, second);
+            if (second.bound > least) open_[open++] = second;
+            while (!(first.bound > least)) {
+                if (open == 0) return;
+                first = open_[--open];
+            }
+            bound = first.bound;
+            pair = first.pair;
+        }
+    }
+    HWY_INLINE Open openBelow(uint32_t index, float bound) const {
+        const Node& node = nodes_[index];
+        return {node.isLeaf() ? -1.0f : bound, node.first};
+    }
+
+    const TreeEditor& tree_;
+    const Node* const nodes_;
+    const FourV scale_;
+    BoxV moved_{};
+    float movedArea_ = 0;
+    Place best_;
+    uint32_t pairsLeft_ = 0;
+    Open open_[kMaxPairs];
+};
+
+void findSome(const TreeEditor& tree, float scale, std::span<const uint32_t> nodes, Place* places) {
+    Search search(tree, scale);
+    for (size_t i = 0; i < nodes.size(); ++i) places[i] = search.find(nodes[i]);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace bvhio
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bvhio {
+namespace {
+
+HWY_EXPORT(findSome);
+
+}  // namespace
+
+float areaScale(const Aabb& root) {
+    double extent = 0;
+    for (int axis = 0; axis < 3; ++axis) extent = std::max(extent, double(root.max[axis]) - root.min[axis]);
+    if (extent == 0) return 1;
+    return std::ldexp(1.0f, std::clamp(-std::ilogb(extent), -126, 127));
+}
+
+void findPlaces(const TreeEditor& tree, float scale, std::span<const uint32_t> nodes, Place* places) {
+    HWY_DYNAMIC_DISPATCH(findSome)(tree, scale, nodes, places);
+}
+
+}  // namespace bvhio
+#endif

@@ -6,6 +6,7 @@
 #define BVHIO_BUILD_BOXES_SIMD_H
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <limits>
@@ -74,6 +75,11 @@ class TriangleBoxes {
         const FourV low = hn::Sub(hn::Zero(d), hn::Mul(hn::Min(hn::Min(v0, v1), v2), scale_));
         const FourV high = hn::Mul(hn::Max(hn::Max(v0, v1), v2), scale_);
         return BoxV::of(hn::And(low, three), hn::And(high, three));
+    }
+
+    /// Asks for what the box of `t` will need.
+    HWY_INLINE void prefetch(const TriangleIndices& t) const {
+        for (const uint32_t index : {t.v0, t.v1, t.v2}) hwy::Prefetch(&vertices_[index]);
     }
 
   private:

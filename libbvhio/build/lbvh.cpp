@@ -37,7 +37,6 @@ struct Part {
     uint32_t right = 0;  // the right child; 0 = this is a subtree
     Box bounds;
     Node root{};
-    Buffer<Node> nodes;      // of a subtree: pairs below its root, depth first, at the buffer's end
     uint32_t nodeCount = 2;  // below the root
     uint32_t firstNode = 0;  // where they go in the whole tree
 };
@@ -51,27 +50,28 @@ namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Builds one subtree.
+/// Builds one subtree: pairs below its root are left at the end of a buffer, depth first.
 class Growth {
   public:
     Growth(const Scene& scene, const MortonOrder& order, const LeafRule& rule)
         : triangles_(scene.triangles.data()), boxes_(scene, order.scale), order_(order), rule_(rule) {}
 
-    void grow(Part& part) {
-        part.nodes = Buffer<Node>(size_t(part.end - part.begin) * 2);
-        nodes_ = part.nodes.data();
-        freeSlots_ = uint32_t(part.nodes.size());
+    void grow(Part& part, Buffer<Node>& nodes) {
+        const size_t most = size_t(part.end - part.begin) * 2;
+        if (nodes.size() < most) nodes = Buffer<Node>(most);
+        nodes_ = nodes.data();
+        freeSlots_ = uint32_t(nodes.size());
         depth_ = 0;
         levels_[0] = 0;  // below all others, so that nothing merges with what is not there
         for (uint32_t end = part.end; end != part.begin;) {
             const uint32_t begin = end - std::min(end - part.begin, kBlock);
-            push(begin, end, begin == part.begin);
+            push(begin, end, part.begin);
             end = begin;
         }
         const Subtree& root = stack_[depth_];
         std::memcpy(part.bounds.negatedMin, root.box, sizeof root.box);
         part.root = root.node();
-        part.nodeCount = uint32_t(part.nodes.size()) - freeSlots_;
+        part.nodeCount = uint32_t(nodes.size()) - freeSlots_;
     }
 
   private:
@@ -90,8 +90,18 @@ class Growth {
         }
     };
 
-    void push(uint32_t begin, uint32_t end, bool isFirst) {
+    /// The place so many blocks before another, and at least `first`.
+    static uint32_t ahead(uint32_t place, uint32_t first, uint32_t blocks) {
+        return place - std::min(place - first, blocks * kBlock);
+    }
+
+    void push(uint32_t begin, uint32_t end, uint32_t first) {
         alignas(32) float boxes[kBlock][8];
+        // Both reads go anywhere in memory: ask early.
+        for (uint32_t i = ahead(begin, first, 2); i < ahead(end, first, 2); ++i)
+            hwy::Prefetch(&triangles_[order_.triangles[i]]);
+        for (uint32_t i = ahead(begin, first, 1); i < ahead(end, first, 1); ++i)
+            boxes_.prefetch(triangles_[order_.triangles[i]]);
         for (uint32_t i = begin; i < end; ++i)
             boxes_(triangles_[order_.triangles[i]]).store(boxes[i - begin]);
         for (uint32_t i = end; i-- > begin;) {
@@ -102,7 +112,7 @@ class Growth {
             leaf.first = i;
             leaf.leafSize = leaf.count = 1;
             leaf.slotsBefore = freeSlots_;
-            const uint32_t level = i == begin && isFirst ? 0 : 1 + order_.levels[i - 1];
+            const uint32_t level = i == first ? 0 : 1 + order_.levels[i - 1];
             while (levels_[depth_ - 1] > level) merge(i);
             levels_[depth_] = level;
         }
@@ -151,8 +161,9 @@ class Growth {
     uint32_t levels_[kMaxDepth + 2];  // to the left of each
 };
 
-void growPart(const Scene& scene, const MortonOrder& order, const LeafRule& rule, Part& part) {
-    Growth(scene, order, rule).grow(part);
+void growPart(const Scene& scene, const MortonOrder& order, const LeafRule& rule, Part& part,
+              Buffer<Node>& nodes) {
+    Growth(scene, order, rule).grow(part, nodes);
 }
 
 }  // namespace
@@ -180,13 +191,13 @@ class LbvhBuild {
         cut(0, count);
         nodes_ = Buffer<Node>(size_t(count) * 2);
         nodes_[1] = {};
-        parallelInOrder(
+        parallelInOrder<Buffer<Node>>(
             subtrees_.size(),
-            [&](size_t i) {
-                HWY_DYNAMIC_DISPATCH(growPart)
-                (scene_, order_, rule_, parts_[subtrees_[i]]);
+            [&](size_t i, Buffer<Node>& nodes) {
+                HWY_DYNAMIC_DISPATCH(growPart)(scene_, order_, rule_, parts_[subtrees_[i]], nodes);
             },
-            [&](size_t i) { place(subtrees_[i]); }, [&](size_t i) { copy(parts_[subtrees_[i]]); });
+            [&](size_t i) { place(subtrees_[i]); },
+            [&](size_t i, const Buffer<Node>& nodes) { copy(parts_[subtrees_[i]], nodes); });
         for (size_t i = parts_.size(); i-- > 0;)
             if (parts_[i].right != 0) join(parts_[i], parts_[i + 1], parts_[parts_[i].right]);
         nodes_[0] = parts_[0].root;
@@ -205,11 +216,11 @@ class LbvhBuild {
         added.begin = begin;
         added.end = end;
         if (end - begin <= std::max(kTask, rule_.maxLeafSize)) return subtrees_.push_back(part);
-        const uint8_t* const levels = order_.levels.data();
+        const uint8_t *const first = order_.levels.data() + begin, *const last = first + (end - 1 - begin);
         uint8_t lowest = 255;
-        for (uint32_t i = begin; i + 1 < end; ++i) lowest = std::min(lowest, levels[i]);
-        const void* found = std::memchr(levels + begin, lowest, end - begin);
-        const auto middle = uint32_t(static_cast<const uint8_t*>(found) - levels) + 1;
+        for (const uint8_t* level = first; level != last; ++level) lowest = std::min(lowest, *level);
+        const void* const found = std::memchr(first, lowest, size_t(last - first));
+        const auto middle = begin + 1 + uint32_t(static_cast<const uint8_t*>(found) - first);
         cut(begin, middle);
         parts_[part].right = uint32_t(parts_.size());
         cut(middle, end);
@@ -223,9 +234,9 @@ class LbvhBuild {
         }
     }
 
-    void copy(Part& part) {
-        const auto unused = uint32_t(part.nodes.size()) - part.nodeCount;
-        const Node* from = part.nodes.data() + unused;
+    void copy(Part& part, const Buffer<Node>& nodes) {
+        const auto unused = uint32_t(nodes.size()) - part.nodeCount;
+        const Node* from = nodes.data() + unused;
         Node* to = nodes_.data() + part.firstNode;
         const uint32_t shift = part.firstNode - unused;
         for (uint32_t i = 0; i < part.nodeCount; ++i) {
@@ -234,7 +245,6 @@ class LbvhBuild {
             to[i] = node;
         }
         if (!part.root.isLeaf()) part.root.first += shift;
-        part.nodes = {};
         if (progress_) progress_->add(part.end - part.begin);
     }
 

@@ -71,6 +71,8 @@ Box encodeSome(const Scene& scene, size_t begin, size_t end, const MortonGrid& g
     BoxV all = BoxV::empty();
     for (size_t block = begin; block < end; block += kBlock) {
         const size_t count = std::min(kBlock, end - block);
+        const size_t nextEnd = std::min(end, block + 2 * kBlock);
+        for (size_t i = block + count; i < nextEnd; ++i) boxes.prefetch(scene.triangles[i]);
         for (size_t i = 0; i < count; ++i) {
             const BoxV box = boxes(scene.triangles[block + i]);
             all = unite(all, box);

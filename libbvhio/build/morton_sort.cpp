@@ -15,8 +15,9 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kDigit = 12, kBuckets = 1u << kDigit;
-constexpr uint32_t kShort = 1u << 13;  // longest run that is sorted in the cache
+constexpr uint32_t kDigit = 12;        // most bits that a distribution looks at
+constexpr uint32_t kBucketBits = 8;    // it aims at buckets of that many indices, in bits
+constexpr uint32_t kShort = 1u << 12;  // longest run that is sorted in the cache
 constexpr uint32_t kTask = 1u << 14;   // indices that a task sorts, at least
 constexpr size_t kGrain = 1u << 15;    // indices that a task distributes
 
@@ -30,11 +31,10 @@ class KeySort {
   public:
     /// `differing`: the bits that not all keys have in common. The result may be in either array.
     static uint64_t* sort(uint64_t* keys, uint64_t* spare, uint32_t count, uint64_t differing) {
-        if (count > kFew) {
-            const uint32_t passes = count > kMany ? 3 : 2;
-            const int lowest = std::max(0, int(std::bit_width(differing)) - int(8 * passes));
-            keys = distribute(keys, spare, count, uint32_t(lowest), passes);
-        }
+        if (count > kMany)
+            keys = distribute<3>(keys, spare, count, differing);
+        else if (count > kFew)
+            keys = distribute<2>(keys, spare, count, differing);
         insert(keys, count);
         return keys;
     }
@@ -42,14 +42,15 @@ class KeySort {
   private:
     static constexpr uint32_t kFew = 32, kMany = 1024;
 
-    /// Orders by `passes` digits of 8 bits from bit `lowest` up.
-    static uint64_t* distribute(uint64_t* keys, uint64_t* spare, uint32_t count, uint32_t lowest,
-                                uint32_t passes) {
-        uint32_t counts[3][256] = {};
+    /// Orders by the highest kPasses * 8 bits that differ.
+    template <uint32_t kPasses>
+    static uint64_t* distribute(uint64_t* keys, uint64_t* spare, uint32_t count, uint64_t differing) {
+        const auto lowest = uint32_t(std::max(0, int(std::bit_width(differing)) - int(8 * kPasses)));
+        uint32_t counts[kPasses][256] = {};
         for (uint32_t i = 0; i < count; ++i)
-            for (uint32_t pass = 0; pass < passes; ++pass)
+            for (uint32_t pass = 0; pass < kPasses; ++pass)
                 ++counts[pass][keys[i] >> (lowest + 8 * pass) & 255];
-        for (uint32_t pass = 0; pass < passes; ++pass) {
+        for (uint32_t pass = 0; pass < kPasses; ++pass) {
             uint32_t* next = counts[pass];
             uint32_t sum = 0;
             for (uint32_t digit = 0; digit < 256; ++digit) sum += std::exchange(next[digit], sum);
@@ -88,29 +89,22 @@ class CodeSort {
         parallelChunks(count, kGrain, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) sides_[1][i] = uint32_t(i);
         });
-        Workspace work;
-        sort({0, count, 0, 1}, work);
+        sort({0, count, 0, 1});
     }
 
   private:
-    /// For one short run at a time.
-    struct Workspace {
-        std::vector<uint64_t> keys{std::vector<uint64_t>(2 * kShort)};
-        std::vector<uint32_t> indices{std::vector<uint32_t>(kShort)};
-    };
-
     /// Afterwards the run is in sides_[0].
-    void sort(Run run, Workspace& work) {
+    void sort(Run run) {
         // Places must fit in the bits that the common ones leave free.
         const auto fits = [&] {
             return uint32_t(std::bit_width(run.count - 1)) <= run.common + 64 - kMortonBits;
         };
-        if (run.count <= kShort && fits()) return sortShort(run, work);
+        if (run.count <= kShort && fits()) return sortShort(run);
         // Not for the whole order at once: it rarely shares much.
         if (run.common > 0 || run.count <= kGrain) run.common = uint32_t(std::countl_zero(differing(run)));
         if (run.common >= kMortonBits) return keepOrder(run);
-        if (run.count <= kShort && fits()) return sortShort(run, work);
-        distribute(run, work);
+        if (run.count <= kShort && fits()) return sortShort(run);
+        distribute(run);
     }
 
     uint64_t differing(const Run& run) const {
@@ -135,18 +129,19 @@ class CodeSort {
         for (uint32_t i = run.begin; i + 1 < run.begin + run.count; ++i) levels_[i] = tieLevel(i);
     }
 
-    void sortShort(const Run& run, Workspace& work) {
+    void sortShort(const Run& run) {
         const uint32_t count = run.count;
         uint32_t* const to = sides_[0] + run.begin;
-        uint32_t* const indices = work.indices.data();
+        uint32_t indices[kShort];
         std::copy_n(sides_[run.side] + run.begin, count, indices);
-        uint64_t* keys = work.keys.data();
+        uint64_t keyArrays[2][kShort];
+        uint64_t* keys = keyArrays[0];
         uint64_t differing = 0;
         for (uint32_t i = 0; i < count; ++i) {
             keys[i] = codes_[indices[i]] << run.common | i;
             differing |= keys[i] ^ keys[0];
         }
-        keys = KeySort::sort(keys, keys + kShort, count, differing);
+        keys = KeySort::sort(keys, keyArrays[1], count, differing);
         const uint64_t places = std::bit_ceil(count) - 1;
         for (uint32_t i = 0; i < count; ++i) to[i] = indices[keys[i] & places];
         uint8_t* const levels = levels_ + run.begin;
@@ -158,50 +153,55 @@ class CodeSort {
     }
 
     /// Moves the indices to the other array, ordered by the next bits, and sorts what shares them.
-    void distribute(const Run& run, Workspace& work) {
+    void distribute(const Run& run) {
         const uint32_t* from = sides_[run.side] + run.begin;
         uint32_t* const to = sides_[run.side ^ 1] + run.begin;
+        // Buckets of some 256 indices, if codes were spread evenly.
+        const auto digit = uint32_t(std::clamp(int(std::bit_width(run.count)) - 8, 6, 12));
+        const uint32_t buckets = 1u << digit;
         const auto bucketOf = [&](uint32_t index) {
-            return uint32_t(codes_[index] << run.common >> (64 - kDigit));
+            return uint32_t(codes_[index] << run.common >> (64 - digit));
         };
         const size_t chunks = (run.count + kGrain - 1) / kGrain;
-        std::vector<uint32_t> next(chunks * kBuckets);  // where each chunk's next index of each bucket goes
+        std::vector<uint32_t> next(chunks * buckets);  // where each chunk's next index of each bucket goes
         parallelChunks(run.count, kGrain, [&](size_t begin, size_t end) {
-            uint32_t* const counts = next.data() + begin / kGrain * kBuckets;
+            uint32_t* const counts = next.data() + begin / kGrain * buckets;
             for (size_t i = begin; i < end; ++i) ++counts[bucketOf(from[i])];
         });
+        std::vector<uint32_t> places(buckets);  // where each bucket's next index of any chunk goes
+        for (size_t i = 0; i < next.size(); ++i) places[i % buckets] += next[i];
         std::vector<Run> runs;
-        const uint32_t common = std::min(run.common + kDigit, kMortonBits);
+        const uint32_t common = std::min(run.common + digit, kMortonBits);
         uint32_t sum = 0;
-        for (uint32_t bucket = 0; bucket < kBuckets; ++bucket) {
-            const uint32_t begin = sum;
-            for (size_t chunk = 0; chunk < chunks; ++chunk)
-                sum += std::exchange(next[chunk * kBuckets + bucket], sum);
-            if (sum > begin) runs.push_back({run.begin + begin, sum - begin, common, run.side ^ 1});
+        for (uint32_t bucket = 0; bucket < buckets; ++bucket) {
+            const uint32_t count = std::exchange(places[bucket], sum);
+            if (count > 0) runs.push_back({run.begin + sum, count, common, run.side ^ 1});
+            sum += count;
         }
+        for (size_t i = 0; i < next.size(); ++i)
+            places[i % buckets] += std::exchange(next[i], places[i % buckets]);
         parallelChunks(run.count, kGrain, [&](size_t begin, size_t end) {
-            uint32_t* const places = next.data() + begin / kGrain * kBuckets;
-            for (size_t i = begin; i < end; ++i) to[places[bucketOf(from[i])]++] = from[i];
+            uint32_t* const own = next.data() + begin / kGrain * buckets;
+            for (size_t i = begin; i < end; ++i) to[own[bucketOf(from[i])]++] = from[i];
         });
-        sortAll(runs, work);
+        sortAll(runs);
         for (size_t i = 0; i + 1 < runs.size(); ++i) {
             const uint32_t last = runs[i + 1].begin - 1;
             levels_[last] = levelBetween(last, codes_[sides_[0][last]], codes_[sides_[0][last + 1]]);
         }
     }
 
-    void sortAll(const std::vector<Run>& runs, Workspace& work) {
+    void sortAll(const std::vector<Run>& runs) {
         TaskGroup group;
         size_t first = 0;
         uint32_t waiting = 0;
         for (size_t i = 0; i < runs.size(); ++i) {
             waiting += runs[i].count;
             if (i + 1 == runs.size()) {
-                for (size_t k = first; k <= i; ++k) sort(runs[k], work);
+                for (size_t k = first; k <= i; ++k) sort(runs[k]);
             } else if (waiting >= kTask) {
                 group.run([this, &runs, first, i] {
-                    Workspace own;
-                    for (size_t k = first; k <= i; ++k) sort(runs[k], own);
+                    for (size_t k = first; k <= i; ++k) sort(runs[k]);
                 });
                 first = i + 1;
                 waiting = 0;

@@ -7,8 +7,11 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_group.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <mutex>
+#include <vector>
 
 namespace bvhio {
 
@@ -36,25 +39,50 @@ inline size_t threadCount() {
     return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
 }
 
-/// Calls make(i) for i from 0 to count - 1 on all threads, about in order; place(i) after it, one at a time
-/// and in order; then finish(i), on all threads again. Few are under way at a time, so what make(i) prepares
-/// for finish(i) can stay in the caches, though its place depends on all before it.
-template <class Make, class Place, class Finish>
+/// Calls make(i, workspace) for i from 0 to count - 1 on all threads, about in order; place(i) after it, one
+/// at a time and in order; then finish(i, workspace), on all threads again. Few are under way at a time, each
+/// with a Workspace that others had before: so what make leaves there for finish can stay in the caches,
+/// though its place depends on all before it.
+template <class Workspace, class Make, class Place, class Finish>
 void parallelInOrder(size_t count, const Make& make, const Place& place, const Finish& finish) {
-    size_t next = 0;
-    const auto start = [&](tbb::flow_control& control) {
-        if (next == count) control.stop();
-        return next++;
+    struct Job {
+        size_t index;
+        Workspace* workspace;
     };
-    const auto makeOne = [&](size_t i) { return make(i), i; };
-    const auto placeOne = [&](size_t i) { return place(i), i; };
-    const auto finishOne = [&](size_t i) { finish(i); };
+    const size_t limit = std::min(count, 4 * threadCount());
+    std::vector<Workspace> workspaces(limit);
+    std::vector<Workspace*> idle;
+    for (Workspace& workspace : workspaces) idle.push_back(&workspace);
+    std::mutex mutex;  // of `idle`
+    size_t next = 0;
+    const auto start = [&](tbb::flow_control& control) -> Job {
+        if (next == count) {
+            control.stop();
+            return {};
+        }
+        const std::lock_guard lock(mutex);
+        Workspace* const workspace = idle.back();
+        idle.pop_back();
+        return {next++, workspace};
+    };
+    const auto makeOne = [&](const Job& job) {
+        make(job.index, *job.workspace);
+        return job;
+    };
+    const auto placeOne = [&](const Job& job) {
+        place(job.index);
+        return job;
+    };
+    const auto finishOne = [&](const Job& job) {
+        finish(job.index, *job.workspace);
+        const std::lock_guard lock(mutex);
+        idle.push_back(job.workspace);
+    };
     using tbb::filter_mode;
-    tbb::parallel_pipeline(4 * threadCount(),
-                           tbb::make_filter<void, size_t>(filter_mode::serial_in_order, start) &
-                               tbb::make_filter<size_t, size_t>(filter_mode::parallel, makeOne) &
-                               tbb::make_filter<size_t, size_t>(filter_mode::serial_in_order, placeOne) &
-                               tbb::make_filter<size_t, void>(filter_mode::parallel, finishOne));
+    tbb::parallel_pipeline(limit, tbb::make_filter<void, Job>(filter_mode::serial_in_order, start) &
+                                      tbb::make_filter<Job, Job>(filter_mode::parallel, makeOne) &
+                                      tbb::make_filter<Job, Job>(filter_mode::serial_in_order, placeOne) &
+                                      tbb::make_filter<Job, void>(filter_mode::parallel, finishOne));
 }
 
 /// Limits the threads that parallel code uses while it lives; 0 means all of the machine's.

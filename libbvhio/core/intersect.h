@@ -29,7 +29,7 @@
 //     stored box.
 // Where spatial splits leave only a part of a triangle under a leaf, the same follows from the slack in
 // `clipToBox`: its error is a few units in the last place of the plane's t, and the interval is widened by
-// more than that plus the error of t.
+// more than that plus the error of t. Parts' boxes have a margin for the rest: core/clip_triangle.h.
 //
 // That slack also makes the box test harmless: let the exact ray pass within the double-precision error of a
 // point P of the triangle, at parameter t. A computed plane parameter differs from the exact one by a factor

@@ -1,5 +1,6 @@
 // bvh-build: from a scene to a container.
 #include "build/builders.h"
+#include "build/spatial.h"
 #include "common/input.h"
 #include "common/pass.h"
 #include "common/run_tool.h"
@@ -43,6 +44,8 @@ ExitCode build(CommandLine& line) {
     line.choice("--builder", builder, namedValues(builders()), "how the tree is built");
     line.number("--bins", options.bins, 0, 256, "bins an axis, for builders that bin; 0: the builder's own");
     line.number("--max-leaf-size", options.maxLeafSize, 1, kMaxLeafSize, "most triangles in a leaf");
+    line.number("--split-budget", options.splitBudget, 0, kMaxSplitBudget,
+                "for spatial: most references that cutting adds, per triangle");
     line.number("--traversal-cost", options.costs.traversal, 0, 1e6f, "SAH cost of visiting an inner node");
     line.number("--intersection-cost", options.costs.intersection, 0, 1e6f,
                 "SAH cost of a ray-triangle test");

@@ -8,6 +8,9 @@ namespace bvhio {
 inline constexpr uint32_t kMaxBins = 256;
 
 /// Throws Error{usage} when options.bins is 1 or above kMaxBins.
+void checkBins(const BuildOptions& options);
+
+/// Throws as checkBins does.
 Bvh buildBinned(const Scene& scene, const BuildOptions& options);
 
 }  // namespace bvhio

@@ -75,9 +75,7 @@ HWY_INLINE const float* floats(const Reference* reference) {
 void fillBins(const Reference* references, uint32_t count, const Grid& grid, Bins& even, Bins& odd) {
     const Four d;
     const FourU du;
-    alignas(16) static constexpr uint32_t kThree[4] = {~0u, ~0u, ~0u, 0};
-    // The fourth lane holds an integer, a denormal as a float: slow to compute with.
-    const FourV three = hn::BitCast(d, hn::Load(du, kThree));
+    const FourV three = firstThree();
     const FourV origin = hn::Load(d, grid.origin), scale = hn::Load(d, grid.scale);
     const FourV round = hn::Set(d, Grid::kRound), zero = hn::Set(d, Grid::kZero);
     const auto add = [&](const Reference* reference, Bins& bins) HWY_ATTR {

@@ -38,6 +38,12 @@ struct BoxV {
     HWY_INLINE FourV low() const { return hn::LowerHalf(Four(), lanes); }
     HWY_INLINE FourV high() const { return hn::UpperHalf(Four(), lanes); }
     friend HWY_INLINE BoxV unite(BoxV a, BoxV b) { return {hn::Max(a.lanes, b.lanes)}; }
+    friend HWY_INLINE BoxV intersect(BoxV a, BoxV b) { return {hn::Min(a.lanes, b.lanes)}; }
+    /// Of boxes that are points, as vectors: their sums and multiples.
+    friend HWY_INLINE BoxV operator+(BoxV a, BoxV b) { return {hn::Add(a.lanes, b.lanes)}; }
+    friend HWY_INLINE BoxV operator*(BoxV a, float factor) {
+        return {hn::Mul(a.lanes, hn::Set(Eight(), factor))};
+    }
 };
 #else
 struct BoxV {
@@ -55,8 +61,35 @@ struct BoxV {
     friend HWY_INLINE BoxV unite(BoxV a, BoxV b) {
         return {hn::Max(a.lows, b.lows), hn::Max(a.highs, b.highs)};
     }
+    friend HWY_INLINE BoxV intersect(BoxV a, BoxV b) {
+        return {hn::Min(a.lows, b.lows), hn::Min(a.highs, b.highs)};
+    }
+    /// Of boxes that are points, as vectors: their sums and multiples.
+    friend HWY_INLINE BoxV operator+(BoxV a, BoxV b) {
+        return {hn::Add(a.lows, b.lows), hn::Add(a.highs, b.highs)};
+    }
+    friend HWY_INLINE BoxV operator*(BoxV a, float factor) {
+        const FourV factors = hn::Set(Four(), factor);
+        return {hn::Mul(a.lows, factors), hn::Mul(a.highs, factors)};
+    }
 };
 #endif
+
+/// A mask for the first three lanes. The fourth of a reference holds an integer, a denormal as a float: slow
+/// to compute with.
+HWY_INLINE FourV firstThree() {
+    alignas(16) static constexpr uint32_t kThree[4] = {~0u, ~0u, ~0u, 0};
+    return hn::BitCast(Four(), hn::Load(FourU(), kThree));
+}
+
+/// A vertex, the next one's x in the fourth lane; the array's last vertex has no next.
+HWY_INLINE FourV loadVertex(const Vec3* vertices, uint32_t last, uint32_t index) {
+    const Four d;
+    const Vec3& v = vertices[index];
+    if (HWY_LIKELY(index != last)) return hn::LoadU(d, &v.x);
+    alignas(16) const float lanes[4] = {v.x, v.y, v.z, 0};
+    return hn::Load(d, lanes);
+}
 
 /// The boxes of a scene's triangles, scaled; the unused lanes are zero.
 class TriangleBoxes {
@@ -68,8 +101,7 @@ class TriangleBoxes {
 
     HWY_INLINE BoxV operator()(const TriangleIndices& t) const {
         const Four d;
-        alignas(16) static constexpr uint32_t kThree[4] = {~0u, ~0u, ~0u, 0};
-        const FourV three = hn::BitCast(d, hn::Load(FourU(), kThree));
+        const FourV three = firstThree();
         const FourV v0 = load(t.v0), v1 = load(t.v1), v2 = load(t.v2);
         // 0 - min, not -min: a -0 would make unions depend on their order.
         const FourV low = hn::Sub(hn::Zero(d), hn::Mul(hn::Min(hn::Min(v0, v1), v2), scale_));
@@ -83,14 +115,7 @@ class TriangleBoxes {
     }
 
   private:
-    /// A vertex, the next one's x in the fourth lane; the array's last vertex has no next.
-    HWY_INLINE FourV load(uint32_t index) const {
-        const Four d;
-        if (HWY_LIKELY(index != lastVertex_)) return hn::LoadU(d, &vertices_[index].x);
-        const Vec3& v = vertices_[index];
-        alignas(16) const float lanes[4] = {v.x, v.y, v.z, 0};
-        return hn::Load(d, lanes);
-    }
+    HWY_INLINE FourV load(uint32_t index) const { return loadVertex(vertices_, lastVertex_, index); }
 
     const Vec3* vertices_;
     uint32_t lastVertex_;

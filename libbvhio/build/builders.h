@@ -15,6 +15,7 @@ struct BuildOptions {
     SahCosts costs;
     uint32_t bins = 0;  // per axis, for binned builders; 0 = the builder's own default
     uint32_t maxLeafSize = 4;
+    float splitBudget = 0.3f;      // for builders that split triangles: most extra references, per triangle
     Progress* progress = nullptr;  // where to count the triangles that are in place, for who watches
 };
 

@@ -79,8 +79,8 @@ float areaScale(const Box& bounds) {
     return std::ldexp(1.0f, std::min(-std::ilogb(largest), 127));
 }
 
-bool makeReferences(const Scene& scene, Buffer<Reference>& references, Box& bounds) {
-    references = Buffer<Reference>(scene.triangles.size());
+bool makeReferences(const Scene& scene, Buffer<Reference>& references, Box& bounds, size_t room) {
+    references = Buffer<Reference>(scene.triangles.size() + room);
     bounds = makeAll(scene, 1, references.data());
     const float scale = areaScale(bounds);
     if (scale == 1) return false;

@@ -63,9 +63,9 @@ Box centroidBounds(const Reference* references, size_t count);
 /// float to about 1.
 float areaScale(const Box& bounds);
 
-/// Makes the references of all triangles, in order, and their bounds. Returns true when the boxes are scaled
-/// (areaScale is not 1), and the tree's boxes need refitting.
-bool makeReferences(const Scene& scene, Buffer<Reference>& references, Box& bounds);
+/// Makes the references of all triangles, in order, with room for `room` more behind them, and their bounds.
+/// Returns true when the boxes are scaled (areaScale is not 1), and the tree's boxes need refitting.
+bool makeReferences(const Scene& scene, Buffer<Reference>& references, Box& bounds, size_t room = 0);
 
 /// The nodes of `bvh` with boxes recomputed from the triangles.
 SharedArray<Node> refitted(const Scene& scene, const Bvh& bvh);

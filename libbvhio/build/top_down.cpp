@@ -26,48 +26,68 @@ class Gathering {
     Gathering(const ReferenceArrays& references, Buffer<Node>& nodes)
         : references_(references), nodes_(nodes) {}
 
-    /// Places the nodes below `node`, which has its final place, at `next_` and on.
+    /// Places the nodes below `node`, which has its final place, at `nextNode_` and on.
     void place(const TreePart& part, Node& node) {
-        const uint32_t to = next_;
+        const uint32_t to = nextNode_;
         if (part.isSubtree()) {
-            if (!node.isLeaf()) node.first += to;
-            subtrees_.push_back({&part, to});
-            next_ += part.nodeCount;
+            node.first += node.isLeaf() ? nextPrimitive_ : to;
+            subtrees_.push_back({&part, to, nextPrimitive_});
+            nextNode_ += part.nodeCount;
+            nextPrimitive_ += part.primitiveCount;
             return;
         }
         node.first = to;
-        next_ += 2;
+        nextNode_ += 2;
         for (int side = 0; side < 2; ++side) {
             nodes_[to + side] = part.nodes[side];
             place(*part.children[side], nodes_[to + side]);
         }
     }
 
-    void copySubtrees() const {
+    void copyNodes() const {
         parallelChunks(subtrees_.size(), 4, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) {
-                const auto& [part, to] = subtrees_[i];
-                const uint32_t firstHalf = std::min(part->nodeCount, part->count);
-                copy(references_.sides[0] + part->begin, firstHalf, to, nodes_.data() + to);
-                copy(references_.sides[1] + part->begin, part->nodeCount - firstHalf, to,
-                     nodes_.data() + to + firstHalf);
+                const Subtree& subtree = subtrees_[i];
+                const TreePart& part = *subtree.part;
+                const uint32_t firstHalf = std::min(part.nodeCount, part.capacity);
+                Node* const to = nodes_.data() + subtree.node;
+                copy(references_.sides[0] + part.place, firstHalf, subtree, to);
+                copy(references_.sides[1] + part.place, part.nodeCount - firstHalf, subtree, to + firstHalf);
             }
         });
     }
 
+    /// Closes the gaps that unused capacity leaves.
+    Buffer<uint32_t> packed(Buffer<uint32_t> primitives) const {
+        if (nextPrimitive_ == primitives.size()) return primitives;
+        Buffer<uint32_t> all(nextPrimitive_);
+        parallelChunks(subtrees_.size(), 4, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i)
+                std::copy_n(primitives.data() + subtrees_[i].part->place, subtrees_[i].part->primitiveCount,
+                            all.data() + subtrees_[i].primitive);
+        });
+        return all;
+    }
+
   private:
-    /// Children are counted from the start of the subtree's nodes, which is now at `start`.
-    static void copy(const Reference* kept, uint32_t count, uint32_t start, Node* nodes) {
+    /// A subtree, and where its nodes and primitives go.
+    struct Subtree {
+        const TreePart* part;
+        uint32_t node, primitive;
+    };
+
+    /// Children and primitives are counted from the start of the subtree's.
+    static void copy(const Reference* kept, uint32_t count, const Subtree& subtree, Node* nodes) {
         for (uint32_t i = 0; i < count; ++i) {
             std::memcpy(static_cast<void*>(nodes + i), kept + i, sizeof(Node));
-            if (!nodes[i].isLeaf()) nodes[i].first += start;
+            nodes[i].first += nodes[i].isLeaf() ? subtree.primitive : subtree.node;
         }
     }
 
     const ReferenceArrays& references_;
     Buffer<Node>& nodes_;
-    std::vector<std::pair<const TreePart*, uint32_t>> subtrees_;  // and where their nodes go
-    uint32_t next_ = 2;
+    std::vector<Subtree> subtrees_;
+    uint32_t nextNode_ = 2, nextPrimitive_ = 0;
 };
 
 uint32_t nodesBelow(const TreePart& part) {
@@ -79,10 +99,16 @@ uint32_t nodesBelow(const TreePart& part) {
 
 void splitAtMedian(const ReferenceArrays& references, const Range& range, Range& left, Range& right) {
     const Reference* source = references.at(range);
-    Reference* target = references.opposite(range);
     const uint32_t half = range.count / 2;
+    left.count = half;
+    right.count = range.count - half;
     left.bounds = right.bounds = Box::empty();
-    left.count = right.count = 0;
+    Reference* toLeftSide = references.left(range);
+    Reference* toRightSide = references.right(range, right.count);
+    const auto move = [&](const Reference& reference, bool toLeft) {
+        *(toLeft ? toLeftSide : toRightSide)++ = reference;
+        extend(toLeft ? left : right, reference);
+    };
     const Box centroids = centroidBounds(source, range.count);
     const int axis = centroids.longestAxis();
 
@@ -92,38 +118,31 @@ void splitAtMedian(const ReferenceArrays& references, const Range& range, Range&
         std::nth_element(keys.begin(), keys.begin() + half, keys.end());
         const CentroidKey first =
             keys[half];  // of the right half: keys differ, so the halves do not depend on the library
-        for (uint32_t i = 0; i < range.count; ++i) {
-            const bool isLeft = CentroidKey{source[i].centroid(axis), source[i].primitive} < first;
-            Range& side = isLeft ? left : right;
-            target[(isLeft ? 0 : half) + side.count++] = source[i];
-            extend(side, source[i]);
-        }
+        for (uint32_t i = 0; i < range.count; ++i)
+            move(source[i], CentroidKey{source[i].centroid(axis), source[i].primitive} < first);
     } else {
-        for (uint32_t i = 0; i < range.count; ++i) {
-            target[i] = source[i];
-            extend(i < half ? left : right, source[i]);
-        }
-        left.count = half;
-        right.count = range.count - half;
+        for (uint32_t i = 0; i < range.count; ++i) move(source[i], i < half);
     }
 }
 
 void keepNodes(const ReferenceArrays& references, const TreePart& subtree, const Node* nodes) {
     static_assert(sizeof(Node) == sizeof(Reference));
-    const uint32_t firstHalf = std::min(subtree.nodeCount, subtree.count);
-    std::memcpy(static_cast<void*>(references.sides[0] + subtree.begin), nodes, firstHalf * sizeof(Node));
-    std::memcpy(static_cast<void*>(references.sides[1] + subtree.begin), nodes + firstHalf,
+    const uint32_t firstHalf = std::min(subtree.nodeCount, subtree.capacity);
+    std::memcpy(static_cast<void*>(references.sides[0] + subtree.place), nodes, firstHalf * sizeof(Node));
+    std::memcpy(static_cast<void*>(references.sides[1] + subtree.place), nodes + firstHalf,
                 (subtree.nodeCount - firstHalf) * sizeof(Node));
 }
 
-SharedArray<Node> gatherNodes(const ReferenceArrays& references, const Node& root, const TreePart& parts) {
+Bvh gather(const ReferenceArrays& references, const Node& root, const TreePart& parts,
+           Buffer<uint32_t> primitives) {
     Buffer<Node> nodes(2 + nodesBelow(parts));
     nodes[0] = root;
     nodes[1] = {};
     Gathering gathering(references, nodes);
     gathering.place(parts, nodes[0]);
-    gathering.copySubtrees();
-    return std::move(nodes).share();
+    gathering.copyNodes();
+    primitives = gathering.packed(std::move(primitives));
+    return {std::move(nodes).share(), std::move(primitives).share()};
 }
 
 }  // namespace bvhio

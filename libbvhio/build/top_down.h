@@ -2,6 +2,7 @@
 // depth, the leaf rule, and the final node array. A builder brings only its split.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <memory>
 #include <vector>
@@ -18,17 +19,24 @@ namespace bvhio {
 struct Range {
     Box bounds;
     uint32_t begin = 0, count = 0;
+    uint32_t place = 0, capacity = 0;  // the run is in [place, place + capacity): room for what splits add
+    float demand = 0;                  // the share of its parent's room that it should have
     uint32_t depth = 0;
     uint32_t side = 0;  // which of the two reference arrays holds the run now
 };
 
-/// Two arrays of references: a split moves a run from one to the same place in the other, keeping the order
-/// within each half. So a split streams, can be done in chunks, and its result depends on the input alone.
+/// Two arrays of references: a split moves a run from one to the same place in the other, the left side to
+/// its start and the right side to its end, keeping the order within each. So a split streams, can be done in
+/// chunks, and its result depends on the input alone.
 struct ReferenceArrays {
     Reference* sides[2];
 
     Reference* at(const Range& range) const { return sides[range.side] + range.begin; }
-    Reference* opposite(const Range& range) const { return sides[range.side ^ 1] + range.begin; }
+    /// Where a split moves the left side to, and a right side of `rightCount`.
+    Reference* left(const Range& range) const { return sides[range.side ^ 1] + range.place; }
+    Reference* right(const Range& range, uint32_t rightCount) const {
+        return left(range) + (range.capacity - rightCount);
+    }
 };
 
 /// True when a node may be split anywhere; otherwise it must be halved, so that the leaves stay within
@@ -47,8 +55,9 @@ struct TreePart {
     // A split: the sibling pair below it.
     Node nodes[2];
     std::unique_ptr<TreePart> children[2];
-    // A subtree: its references' place, and how many nodes it has below its root.
-    uint32_t begin = 0, count = 0, nodeCount = 0;
+    // A subtree: its references' place, how many nodes it has below its root, and how many entries its
+    // leaves.
+    uint32_t place = 0, capacity = 0, nodeCount = 0, primitiveCount = 0;
 
     bool isSubtree() const { return !children[0]; }
 };
@@ -57,8 +66,10 @@ struct TreePart {
 /// below its root, so they fit the n slots of each array.
 void keepNodes(const ReferenceArrays& references, const TreePart& subtree, const Node* nodes);
 
-/// Joins the parts into the canonical, depth-first node array.
-SharedArray<Node> gatherNodes(const ReferenceArrays& references, const Node& root, const TreePart& parts);
+/// Joins the parts into the canonical, depth-first tree. Each subtree's primitives are in `primitives` where
+/// its references were, counted from there by its leaves.
+Bvh gather(const ReferenceArrays& references, const Node& root, const TreePart& parts,
+           Buffer<uint32_t> primitives);
 
 /// Builds trees from the root down. `Splitter` provides
 ///
@@ -66,30 +77,36 @@ SharedArray<Node> gatherNodes(const ReferenceArrays& references, const Node& roo
 ///
 /// which moves the references of both sides to the opposite array, fills in the bounds and counts of `left`
 /// and `right` (each at least 1), and may use all threads when `parallel`; or returns false when it finds no
-/// split, and the range is halved. It is called from several threads at once.
+/// split, and the range is halved. It is called from several threads at once. Where the range's capacity has
+/// room, a triangle may have a part on both sides, if neither side gets as many references as the range; it
+/// then sets the sides' demands for the rest of the room.
 template <class Splitter>
 class TopDownBuild {
   public:
-    TopDownBuild(const Scene& scene, const BuildOptions& options, const Splitter& splitter)
+    /// `room` is the number of references that splits may add.
+    TopDownBuild(const Scene& scene, const BuildOptions& options, const Splitter& splitter, uint32_t room = 0)
         : scene_(scene),
           leafRule_{options.costs.traversal, options.costs.intersection, std::max(options.maxLeafSize, 1u)},
           splitter_(splitter),
           progress_(options.progress),
-          primitives_(scene.triangles.size()) {}
+          room_(room) {}
 
     Bvh build() && {
         Range range;
         range.count = uint32_t(scene_.triangles.size());
         if (progress_) progress_->start(range.count);
         Buffer<Reference> sides[2];
-        const bool rescaled = makeReferences(scene_, sides[0], range.bounds);
-        sides[1] = Buffer<Reference>(range.count);
+        const bool rescaled = makeReferences(scene_, sides[0], range.bounds, room_);
+        // Boxes of another scale than their triangles can't be split; and refitting would undo it.
+        range.capacity = range.count + (rescaled ? 0 : room_);
+        sides[1] = Buffer<Reference>(range.capacity);
         references_ = {sides[0].data(), sides[1].data()};
+        primitives_ = Buffer<uint32_t>(range.capacity);
 
         Node root;
         TreePart parts;
         buildPart(range, root, parts);
-        Bvh bvh{gatherNodes(references_, root, parts), std::move(primitives_).share()};
+        Bvh bvh = gather(references_, root, parts, std::move(primitives_));
         if (rescaled) bvh.nodes = refitted(scene_, bvh);
         return bvh;
     }
@@ -102,6 +119,7 @@ class TopDownBuild {
         if (range.count <= std::max(kTask, leafRule_.maxLeafSize)) return buildSubtree(range, node, part);
         Range sides[2];
         split(references_, range, sides[0], sides[1], range.count >= kSharedSplit);
+        if (progress_) progress_->total += sides[0].count + sides[1].count - range.count;
         node = {range.bounds.toAabb(), 0, 0};
         for (auto& child : part.children) child = std::make_unique<TreePart>();
         TaskGroup group;
@@ -115,45 +133,64 @@ class TopDownBuild {
         ReferenceArrays references;
         Node* nodes;  // pairs, depth first
         uint32_t nodeCount;
-        uint32_t firstPrimitive;  // where the subtree's range begins
+        uint32_t* primitives;
+        uint32_t primitiveCount;
     };
 
     void buildSubtree(const Range& range, Node& node, TreePart& part) {
-        const uint32_t count = range.count;
-        Buffer<Reference> references(size_t(count) * 2);
-        Buffer<Node> nodes(size_t(count) * 2);
-        std::copy_n(references_.at(range), count, references.data());
-        Workspace work{{references.data(), references.data() + count}, nodes.data(), 0, range.begin};
+        Buffer<Reference> references(size_t(range.capacity) * 2);
+        Buffer<Node> nodes(size_t(range.capacity) * 2);
+        std::copy_n(references_.at(range), range.count, references.data());
+        Workspace work{{references.data(), references.data() + range.capacity},
+                       nodes.data(),
+                       0,
+                       primitives_.data() + range.place,
+                       0};
         Range local = range;
-        local.begin = local.side = 0;
+        local.begin = local.place = local.side = 0;
         grow(work, local, node);
-        part.begin = range.begin;
-        part.count = count;
+        part.place = range.place;
+        part.capacity = range.capacity;
         part.nodeCount = work.nodeCount;
+        part.primitiveCount = work.primitiveCount;
         keepNodes(references_, part, nodes.data());
-        if (progress_) progress_->add(count);
+        if (progress_) progress_->add(range.count);
     }
 
     /// Builds the subtree of a range and returns its SAH cost, times areas. It becomes one leaf where that
     /// costs no more.
     float grow(Workspace& work, const Range& range, Node& node) {
-        if (range.count <= kSmallTree && range.depth + range.count <= kMaxDepth + 1)
+        if (range.count <= kSmallTree && range.depth + range.count <= kMaxDepth + 1) {
+            const uint32_t begin = work.primitiveCount;
+            work.primitiveCount += range.count;
             return buildSmallTree(work.references.at(range), range.count, leafRule_, node, work.nodes,
-                                  work.nodeCount, primitives_.data(), work.firstPrimitive + range.begin);
+                                  work.nodeCount, work.primitives, begin);
+        }
         Range left, right;
         split(work.references, range, left, right, false);
         const float area = range.bounds.halfArea();
-        const uint32_t pair = work.nodeCount;
+        const uint32_t pair = work.nodeCount, firstPrimitive = work.primitiveCount;
         work.nodeCount += 2;
         float cost = leafRule_.traversal * area;
         cost += grow(work, left, work.nodes[pair]);
+        // The right side gets the room that the left side did not use.
+        const uint32_t unused = left.capacity - (work.primitiveCount - firstPrimitive);
+        right.place -= unused;
+        right.capacity += unused;
         cost += grow(work, right, work.nodes[pair + 1]);
         node = {range.bounds.toAabb(), pair, 0};
         if (range.count > leafRule_.maxLeafSize) return cost;
         const float leafCost = leafRule_.cost(area, range.count);
         if (!(leafCost <= cost)) return cost;
         work.nodeCount = pair;
-        node.first = work.firstPrimitive + range.begin;
+        if (work.primitiveCount - firstPrimitive > range.count) {
+            // Parts of one triangle meet again.
+            uint32_t* const begin = work.primitives + firstPrimitive;
+            std::sort(begin, work.primitives + work.primitiveCount);
+            std::unique(begin, work.primitives + work.primitiveCount);
+        }
+        work.primitiveCount = firstPrimitive + range.count;
+        node.first = firstPrimitive;
         node.primitiveCount = range.count;
         return leafCost;
     }
@@ -162,16 +199,29 @@ class TopDownBuild {
                bool parallel) const {
         if (!mayChooseSplit(range) || !splitter_.split(references, range, left, right, parallel))
             splitAtMedian(references, range, left, right);
-        left.begin = range.begin;
-        right.begin = range.begin + left.count;
+        left.begin = left.place = range.place;
+        left.capacity = left.count + shareOfRoom(range, left, right);
+        right.place = range.place + left.capacity;
+        right.capacity = range.capacity - left.capacity;
+        right.begin = range.place + range.capacity - right.count;
         left.depth = right.depth = range.depth + 1;
         left.side = right.side = range.side ^ 1;
+    }
+
+    static uint32_t shareOfRoom(const Range& range, const Range& left, const Range& right) {
+        const uint32_t room = range.capacity - left.count - right.count;
+        if (room == 0) return 0;
+        const float both = left.demand + right.demand;
+        const double share =
+            both > 0 ? double(left.demand) / both : double(left.count) / (double(left.count) + right.count);
+        return uint32_t(room * std::min(share, 1.0));
     }
 
     const Scene& scene_;
     const LeafRule leafRule_;
     const Splitter& splitter_;
     Progress* const progress_;
+    const uint32_t room_;
     Buffer<uint32_t> primitives_;
     ReferenceArrays references_{};
 };

@@ -12,7 +12,7 @@ namespace {
 Range wholeRange(const Scene& scene, Buffer<Reference> (&sides)[2]) {
     Range range;
     makeReferences(scene, sides[0], range.bounds);
-    range.count = uint32_t(scene.triangles.size());
+    range.count = range.capacity = uint32_t(scene.triangles.size());
     sides[1] = Buffer<Reference>(range.count);
     return range;
 }
@@ -33,7 +33,7 @@ uint32_t depthOf(const Bvh& bvh) {
 struct OneOff {
     bool split(const ReferenceArrays& references, const Range& range, Range& left, Range& right, bool) const {
         const Reference* source = references.at(range);
-        std::memcpy(static_cast<void*>(references.opposite(range)), source, range.count * sizeof(Reference));
+        std::memcpy(static_cast<void*>(references.left(range)), source, range.count * sizeof(Reference));
         left.count = 1;
         right.count = range.count - 1;
         left.bounds = right.bounds = Box::empty();

@@ -89,7 +89,8 @@ TEST_P(Watertight, holdsEveryRayAimedAtEdgesAndCorners) {
         std::vector<Vec3> vertices(scene.vertices.begin(), scene.vertices.end());
         for (Vec3& v : vertices) v = put(v);
         scene.vertices = std::move(vertices);
-        const EncodedBvh bvh = AabbForm(builders()[0].function(scene, {}));
+        const EncodedBvh bvhs[] = {AabbForm(builders()[0].function(scene, {})),
+                                   AabbForm(choose(builders(), "builder", "spatial").function(scene, {}))};
 
         Random random(uint64_t(place.scale * 10) + 1);
         std::vector<Ray> rays;
@@ -108,11 +109,13 @@ TEST_P(Watertight, holdsEveryRayAimedAtEdgesAndCorners) {
                 rays.push_back({origin, 0, axis, std::numeric_limits<float>::infinity()});
             }
         }
-        std::vector<Hit> hits(rays.size());
-        Tracer(scene, bvh).closestHits(rays, hits);
-        size_t lost = 0;
-        for (const Hit& hit : hits) lost += hit.isMiss();
-        EXPECT_EQ(lost, 0u) << "of " << rays.size();
+        for (const EncodedBvh& bvh : bvhs) {
+            std::vector<Hit> hits(rays.size());
+            Tracer(scene, bvh).closestHits(rays, hits);
+            size_t lost = 0;
+            for (const Hit& hit : hits) lost += hit.isMiss();
+            EXPECT_EQ(lost, 0u) << "of " << rays.size();
+        }
     }
 }
 

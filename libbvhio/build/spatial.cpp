@@ -1,0 +1,289 @@
+// SAH with spatial splits: M. Stich, H. Friedrich, A. Dietrich, "Spatial Splits in Bounding Volume
+// Hierarchies", HPG 2009. Where the sides of the best object split overlap, planes that cut triangles in two
+// are tried too; a triangle that is cheaper whole on one side stays whole ("reference unsplitting").
+// Departures:
+// - One budget of extra references for the whole tree, the array's spare room, takes the place of the paper's
+//   bound on overlaps. A split takes what it needs of its node's share; the rest is divided in proportion to
+//   the sizes of the boxes on either side, since large boxes gain most by cutting, and a subtree's leftovers
+//   go to its neighbour. So the tree depends on the input alone.
+// - Parts are bounded by clipping the triangle to the part's whole box, not to one plane
+// (core/clip_triangle).
+// - Unsplitting compares with the sides as they are with all cuts, in the order of the references.
+// - The rest is as in the default builder: object splits over bins, subtrees by tasks, ranges of a few
+//   references solved exactly, leaves decided bottom-up (object_split_simd, small_tree, top_down).
+
+#include "build/spatial.h"
+
+#include "build/binned.h"
+#include "build/top_down.h"
+#include "core/clip_triangle.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "build/spatial.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "build/object_split_simd.h"
+#include "build/spatial_split_simd.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bvhio {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Overlap of an object split's sides, relative to their parent's area, from which cuts are tried.
+constexpr float kMinOverlap = 0.1f;
+
+/// Slabs per axis by default: many where a node is wide, few where references are.
+uint32_t defaultSlabs(uint32_t count) {
+    return count >= 1u << 12 ? 32 : count >= 32 ? 16 : 8;
+}
+
+Box boxOf(const Reference& reference) {
+    Box box;
+    std::memcpy(&box, &reference, sizeof box);
+    return box;
+}
+
+Box boxOf(const Aabb& b) {
+    return {{0 - b.min.x, 0 - b.min.y, 0 - b.min.z, 0}, {b.max.x, b.max.y, b.max.z, 0}};
+}
+
+Box united(Box a, const Box& b) {
+    a.extend(b);
+    return a;
+}
+
+float overlapArea(const Box& a, const Box& b) {
+    Box both;
+    for (int axis = 0; axis < 3; ++axis) {
+        both.negatedMin[axis] = std::min(a.negatedMin[axis], b.negatedMin[axis]);
+        both.max[axis] = std::min(a.max[axis], b.max[axis]);
+        if (!(both.extent(axis) >= 0)) return 0;
+    }
+    return both.halfArea();
+}
+
+/// How much of the room for more references these should have: the sum of their boxes' extents.
+float demandOf(const Reference* references, uint32_t count) {
+    const Four d;
+    const FourV three = firstThree();
+    FourV sums = hn::Zero(d);
+    for (uint32_t i = 0; i < count; ++i) {
+        const float* lanes = floats(references + i);
+        sums = hn::Add(sums,
+                       hn::Add(hn::And(three, hn::Load(d, lanes)), hn::And(three, hn::Load(d, lanes + 4))));
+    }
+    alignas(16) float lanes[4];
+    hn::Store(sums, d, lanes);
+    return lanes[0] + lanes[1] + lanes[2];
+}
+
+/// A reference that a plane cuts, and its parts on both sides; one of them is empty if it stays whole.
+struct Crossing {
+    Reference whole;
+    Box parts[2];
+    bool has(int side) const { return parts[side].negatedMin[0] != -kInfinity; }
+};
+
+class SpatialSplitter {
+  public:
+    /// `bins` per axis, of centroids and of space; 0 = by the number of references.
+    SpatialSplitter(const Scene& scene, uint32_t bins) : scene_(scene), bins_(bins) {}
+
+    bool split(const ReferenceArrays& references, const Range& range, Range& left, Range& right,
+               bool parallel) const {
+        ObjectSplit object;
+        const bool found = findObjectSplit(references, range, bins_, parallel, object, left, right);
+        if (!splitSpace(references, range, found, left, right, parallel)) {
+            if (!found) return false;
+            moveReferences(references, range, object, right.count, parallel);
+        }
+        if (range.capacity > left.count + right.count) {
+            left.demand = demand(references.left(range), left.count, parallel);
+            right.demand = demand(references.right(range, right.count), right.count, parallel);
+        }
+        return true;
+    }
+
+  private:
+    /// Cuts a range if that costs less than its object split, whose sides `left` and `right` describe if
+    /// there is one. Leaves these as they are if not.
+    bool splitSpace(const ReferenceArrays& references, const Range& range, bool objectSplit, Range& left,
+                    Range& right, bool parallel) const {
+        const float area = range.bounds.halfArea();
+        if (range.capacity == range.count || !(area > std::numeric_limits<float>::min())) return false;
+        float objectCost = kInfinity;
+        if (objectSplit) {
+            if (overlapArea(left.bounds, right.bounds) <= kMinOverlap * area) return false;
+            objectCost =
+                left.bounds.halfArea() * float(left.count) + right.bounds.halfArea() * float(right.count);
+        }
+        SpatialSplit split(range.bounds, bins_ == 0 ? defaultSlabs(range.count) : std::min(bins_, kMaxSlabs),
+                           parallel ? kGrain : range.count);
+        const Reference* source = references.at(range);
+        if (!findSpatialSplit(scene_, source, range.count, range.capacity, split)) return false;
+        if (!(split.plane.cost < objectCost)) return false;
+
+        Buffer<Crossing> crossings(split.plane.leftCount + split.plane.rightCount - range.count);
+        Range sides[2];
+        cutCrossing(source, range.count, split, crossings, sides);
+        if (!decide(split.plane, crossings, sides)) return false;
+        left = sides[0];
+        right = sides[1];
+        move(references, range, split, crossings, right.count);
+        return true;
+    }
+
+    /// Cuts the references that cross the plane; sets the bounds of the sides without them.
+    void cutCrossing(const Reference* source, uint32_t count, const SpatialSplit& split,
+                     Buffer<Crossing>& crossings, Range (&sides)[2]) const {
+        const int axis = split.plane.axis;
+        const float at = split.slabs.plane(axis, split.plane.lastLeft + 1);
+        std::vector<Box> wholes(2 * split.chunks.size());
+        parallelChunks(count, split.grain, [&](size_t begin, size_t end) {
+            const size_t chunk = begin / split.grain;
+            Crossing* to = crossings.data() + split.chunks[chunk].crossingBefore;
+            BoxV lefts = BoxV::empty(), rights = BoxV::empty();
+            for (size_t i = begin; i < end; ++i) {
+                const BoxV box = BoxV::load(floats(source + i));
+                const Side side = sideOf(source[i], split);
+                if (side == Side::left)
+                    lefts = unite(lefts, box);
+                else if (side == Side::right)
+                    rights = unite(rights, box);
+                else
+                    cut(source[i], axis, at, *to++);
+            }
+            lefts.store(wholes[2 * chunk].negatedMin);
+            rights.store(wholes[2 * chunk + 1].negatedMin);
+        });
+        for (int side = 0; side < 2; ++side) {
+            sides[side].bounds = Box::empty();
+            for (size_t i = side; i < wholes.size(); i += 2) sides[side].bounds.extend(wholes[i]);
+        }
+    }
+
+    void cut(const Reference& reference, int axis, float at, Crossing& crossing) const {
+        const Aabb box = boxOf(reference).toAabb();
+        const Triangle triangle = scene_.triangle(reference.primitive);
+        Aabb halves[2] = {box, box};
+        halves[0].max[axis] = std::min(box.max[axis], at);
+        halves[1].min[axis] = std::max(box.min[axis], at);
+        crossing.whole = reference;
+        for (int side = 0; side < 2; ++side) {
+            const Aabb part = intersection(partBounds(triangle, halves[side]), box);
+            crossing.parts[side] = part.isEmpty() ? Box::empty() : boxOf(part);
+        }
+    }
+
+    /// Decides who stays whole on which side: whatever costs least. Completes the bounds and counts of the
+    /// sides. False if nothing would be left on one side.
+    static bool decide(const SpatialPlane& plane, Buffer<Crossing>& crossings, Range (&sides)[2]) {
+        sides[0].count = plane.leftCount;
+        sides[1].count = plane.rightCount;
+        Box bounds[2] = {sides[0].bounds, sides[1].bounds};
+        for (size_t i = 0; i < crossings.size(); ++i)
+            for (int side = 0; side < 2; ++side) bounds[side].extend(crossings[i].parts[side]);
+        for (size_t i = 0; i < crossings.size(); ++i) {
+            Crossing& crossing = crossings[i];
+            const Box whole = boxOf(crossing.whole);
+            int keep = -1;
+            if (crossing.has(0) && crossing.has(1)) {
+                const float areas[2] = {bounds[0].halfArea(), bounds[1].halfArea()};
+                float least = areas[0] * float(sides[0].count) + areas[1] * float(sides[1].count);
+                for (int side = 0; side < 2; ++side) {
+                    if (sides[1 - side].count == 1) continue;
+                    const float cost = united(bounds[side], whole).halfArea() * float(sides[side].count) +
+                                       areas[1 - side] * float(sides[1 - side].count - 1);
+                    if (cost > least) continue;
+                    least = cost;
+                    keep = side;
+                }
+                if (keep >= 0) {
+                    crossing.parts[keep] = whole;
+                    crossing.parts[1 - keep] = Box::empty();
+                    bounds[keep].extend(whole);
+                }
+            } else {  // its box crosses the plane, the triangle's part in the box does not
+                keep = crossing.has(1);
+                if (!crossing.has(keep)) crossing.parts[keep] = whole;
+                if (sides[1 - keep].count == 1) return false;
+            }
+            if (keep >= 0) --sides[1 - keep].count;
+            for (int side = 0; side < 2; ++side) sides[side].bounds.extend(crossing.parts[side]);
+        }
+        return true;
+    }
+
+    /// Moves the references of both sides: first those that are whole, then the decided ones.
+    static void move(const ReferenceArrays& references, const Range& range, const SpatialSplit& split,
+                     const Buffer<Crossing>& crossings, uint32_t rightCount) {
+        const Reference* source = references.at(range);
+        Reference* const sides[2] = {references.left(range), references.right(range, rightCount)};
+        parallelChunks(range.count, split.grain, [&](size_t begin, size_t end) {
+            const auto& chunk = split.chunks[begin / split.grain];
+            Reference* left = sides[0] + chunk.leftBefore;
+            Reference* right = sides[1] + (begin - chunk.leftBefore - chunk.crossingBefore);
+            for (size_t i = begin; i < end; ++i) {
+                const Side side = sideOf(source[i], split);
+                if (side == Side::left)
+                    *left++ = source[i];
+                else if (side == Side::right)
+                    *right++ = source[i];
+            }
+        });
+        const uint32_t wholes[2] = {range.count - split.plane.rightCount,
+                                    range.count - split.plane.leftCount};
+        for (int side = 0; side < 2; ++side) {
+            Reference* to = sides[side] + wholes[side];
+            for (size_t i = 0; i < crossings.size(); ++i) {
+                if (!crossings[i].has(side)) continue;
+                std::memcpy(static_cast<void*>(to), &crossings[i].parts[side], sizeof *to);
+                to++->primitive = crossings[i].whole.primitive;
+            }
+        }
+    }
+
+    static float demand(const Reference* references, uint32_t count, bool parallel) {
+        if (!parallel) return demandOf(references, count);
+        std::vector<float> chunks((count + kGrain - 1) / kGrain);
+        parallelChunks(count, kGrain, [&](size_t begin, size_t end) {
+            chunks[begin / kGrain] = demandOf(references + begin, uint32_t(end - begin));
+        });
+        float sum = 0;
+        for (const float chunk : chunks) sum += chunk;
+        return sum;
+    }
+
+    const Scene& scene_;
+    const uint32_t bins_;
+};
+
+Bvh build(const Scene& scene, const BuildOptions& options) {
+    const SpatialSplitter splitter(scene, options.bins);
+    const double triangles = double(scene.triangles.size());
+    // Twice as many nodes as references must have indices.
+    const double room = std::min(triangles * double(options.splitBudget), 0x7FFFFFFF - triangles);
+    return TopDownBuild<SpatialSplitter>(scene, options, splitter, uint32_t(std::max(room, 0.0))).build();
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace bvhio
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bvhio {
+
+HWY_EXPORT(build);
+
+Bvh buildSpatial(const Scene& scene, const BuildOptions& options) {
+    checkBins(options);
+    if (!(options.splitBudget >= 0 && options.splitBudget <= kMaxSplitBudget))
+        throw Error(ErrorKind::usage, "the split budget must be from 0 to 16");
+    return HWY_DYNAMIC_DISPATCH(build)(scene, options);
+}
+
+}  // namespace bvhio
+#endif

@@ -1,13 +1,17 @@
 #include "restructure/restructurers.h"
 
+#include "restructure/atr.h"
 #include "restructure/none.h"
 #include "restructure/reinsertion.h"
+#include "restructure/tr.h"
 
 namespace bvhio {
 
 std::span<const Restructurer> restructurers() {
     static constexpr Restructurer kTable[] = {
         {"reinsertion", "move subtrees to where they cost least: the best cost", restructureReinsertion},
+        {"atr", "rebuild treelets by agglomeration: about as good as tr, faster", restructureAtr},
+        {"tr", "rebuild treelets, each at its optimum", restructureTr},
         {"none", "leave the tree as it is", restructureNone},
     };
     return kTable;

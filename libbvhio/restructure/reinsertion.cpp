@@ -2,12 +2,13 @@
 // parallel as in Meister and Bittner 2018, "Parallel reinsertion for bounding volume hierarchy optimization":
 // a subtree is taken out and put back where the tree costs least. Departures:
 // - A pass looks at some of the subtrees only, those that promise most, and at none again for which it found
-//   no better place until something about that one changed. When none are left, all get another chance; when
-//   that finds nothing either, the tree is as good as this method can make it.
+//   no better place until something about that one changed. When none are left, all get another chance.
 // - The places are found in parallel, by areas alone, in batches over a tree that rests meanwhile. Then the
 //   moves are made one by one, the greatest gain first. Instead of looking for conflicts between them, each
 //   is judged again in the tree as it is by then, and by the cost that the tree will have once leaves are
 //   formed: what lowers the one often does not lower the other.
+// - Where no single move helps, several at once may (reinsertion_treelet.h): above all among the few nodes at
+//   the top, on which the cost depends most.
 
 #include "restructure/reinsertion.h"
 
@@ -17,6 +18,7 @@
 #include "restructure/reinsertion_candidates.h"
 #include "restructure/reinsertion_moves.h"
 #include "restructure/reinsertion_search.h"
+#include "restructure/reinsertion_treelet.h"
 
 namespace bvhio {
 namespace {
@@ -25,6 +27,10 @@ constexpr uint32_t kIterations = 6;
 constexpr size_t kPart = 20, kFewest = 1024;  // of the nodes a pass looks at one in kPart, or this many
 constexpr uint32_t kBatches = 4;
 constexpr size_t kGrain = 128;
+// Treelets: after how many passes, their leaves, and the slots that make for a step in each pass.
+constexpr uint32_t kPassesBefore = 3, kTreeletLeaves = 512, kSlotsPerStep = 64, kFewestSteps = 32;
+constexpr uint32_t kCuts = 3;   // ways to cut the tree, each with four times as many treelets
+constexpr uint32_t kIdle = 16;  // passes without a change after which there is nothing left to find
 
 struct Move {
     float gain;
@@ -43,25 +49,24 @@ class Reinsertion {
           candidates_(tree, scale_),
           moves_(tree, candidates_.flags()) {}
 
-    /// One pass; returns false when there is nothing left to do.
-    bool iterate(uint64_t& changes) {
-        const std::vector<uint32_t>& selected = candidates_.select(std::max(tree_.size() / kPart, kFewest));
-        if (selected.empty()) {
-            if (!changedSinceAll_) return false;
-            changedSinceAll_ = false;
-            candidates_.flagAll();
-            return iterate(changes);
-        }
+    /// One pass; returns what it changed.
+    uint64_t iterate() {
+        uint64_t changes = pass_ < kPassesBefore ? 0 : recreateTreelets();
+        const std::vector<uint32_t>& selected = select();
         for (uint32_t batch = 0; batch < kBatches; ++batch) {
             // Neighbours change each other's chances, so they come one after the other.
             batch_.clear();
             for (const uint32_t slot : selected)
                 if (slot % kBatches == batch) batch_.push_back(slot);
-            changes += process();
+            changes += moveBatch();
         }
+        ++pass_;
         changedSinceAll_ |= changes > 0;
-        return true;
+        idle_ = changes > 0 ? 0 : idle_ + 1;
+        return changes;
     }
+
+    bool done() const { return idle_ == kIdle; }
 
     size_t bytes() const {
         return candidates_.bytes() + moves_.bytes() + batch_.capacity() * sizeof(uint32_t) +
@@ -69,8 +74,17 @@ class Reinsertion {
     }
 
   private:
+    const std::vector<uint32_t>& select() {
+        const size_t wanted = std::max(tree_.size() / kPart, kFewest);
+        const std::vector<uint32_t>& selected = candidates_.select(wanted);
+        if (!selected.empty() || !changedSinceAll_) return selected;
+        changedSinceAll_ = false;
+        candidates_.flagAll();
+        return candidates_.select(wanted);
+    }
+
     /// Finds places for the batch, then moves what still gains.
-    uint64_t process() {
+    uint64_t moveBatch() {
         places_.resize(batch_.size());
         parallelChunks(batch_.size(), kGrain, [&](size_t begin, size_t end) {
             findPlaces(tree_, scale_, {batch_.data() + begin, end - begin}, places_.data() + begin);
@@ -91,11 +105,43 @@ class Reinsertion {
         return changes;
     }
 
+    /// Half of the steps for the treelet at the top, the others for as many of those below as they suffice
+    /// for, in turn.
+    uint64_t recreateTreelets() {
+        const size_t steps = std::max<size_t>(tree_.size() / kSlotsPerStep, kFewestSteps);
+        Treelet top(moves_, 0, kTreeletLeaves);
+        Random random(pass_);
+        uint64_t changes = top.improve(uint32_t(steps / 2), random);
+        if (changes > 0) top.write(moves_);
+        uint32_t cut = pass_ % kCuts;
+        while (cut > 0 && (kTreeletLeaves << 2 * cut) * 32 > tree_.size()) --cut;
+        const std::vector<uint32_t> all =
+            cut == 0 ? top.openLeaves(moves_)
+                     : Treelet(moves_, 0, kTreeletLeaves << 2 * cut).openLeaves(moves_);
+        std::vector<uint32_t> roots(std::min(all.size(), steps / 2 / kTreeletLeaves));
+        for (uint32_t& root : roots) root = all[next_[cut]++ % all.size()];
+        std::vector<uint32_t> changesOf(roots.size());
+        parallelChunks(roots.size(), 1, [&](size_t i, size_t) {
+            Treelet treelet(moves_, roots[i], kTreeletLeaves);
+            Random ownRandom(pass_, roots[i]);
+            changesOf[i] = treelet.improve(treelet.leaves(), ownRandom);
+            if (changesOf[i] > 0) treelet.write(moves_);
+        });
+        for (size_t i = 0; i < roots.size(); ++i) {
+            if (changesOf[i] == 0) continue;
+            changes += changesOf[i];
+            moves_.update(tree_.parent(roots[i]));
+        }
+        return changes;
+    }
+
     TreeEditor& tree_;
     const float scale_;
     Candidates candidates_;
     SubtreeMoves moves_;
-    bool changedSinceAll_ = false;
+    uint32_t pass_ = 0, idle_ = 0;
+    bool changedSinceAll_ = false;  // since all were candidates
+    size_t next_[kCuts] = {};
     std::vector<uint32_t> batch_;
     std::vector<Place> places_;
     std::vector<Move> found_;
@@ -108,10 +154,8 @@ Restructured restructureReinsertion(const Scene& scene, const Bvh& bvh, const Re
     const uint32_t iterations = options.iterations != 0 ? options.iterations : kIterations;
     if (options.progress) options.progress->start(iterations);
     Reinsertion reinsertion(tree);
-    for (uint32_t i = 0; i < iterations; ++i) {
-        uint64_t changes = 0;
-        if (!reinsertion.iterate(changes)) break;
-        tree.endIteration(changes);
+    for (uint32_t i = 0; i < iterations && !reinsertion.done(); ++i) {
+        tree.endIteration(reinsertion.iterate());
         if (options.progress) options.progress->add(1);
     }
     return std::move(tree).finish(reinsertion.bytes());

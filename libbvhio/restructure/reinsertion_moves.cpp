@@ -28,6 +28,26 @@ SubtreeMoves::Small SubtreeMoves::inner(const Aabb& box, const Small& left, cons
     return {std::min(traversal_ * area + left.cost + right.cost, intersection_ * area * count), count};
 }
 
+bool SubtreeMoves::isLeafInTheEnd(uint32_t slot) const {
+    const Node& node = tree_[slot];
+    const Small& small = small_[slot];
+    return node.isLeaf() ||
+           (fewEnough(small.count) && small.cost == intersection_ * halfArea(node.bounds) * small.count);
+}
+
+void SubtreeMoves::put(uint32_t slot, const Content& content) {
+    tree_[slot] = content.node;
+    small_[slot] = content.small;
+    tree_.adopt(slot);
+}
+
+void SubtreeMoves::make(uint32_t slot, uint32_t pair, const Aabb& box) {
+    tree_[slot] = {box, pair, 0};
+    small_[slot] = inner(box, small_[pair], small_[pair + 1]);
+    tree_.adopt(slot);
+    touched_[pair] = touched_[pair + 1] = 1;
+}
+
 bool SubtreeMoves::climb(uint32_t from, Path& path) const {
     path.count = 0;
     while (path.count < path.slots.size()) {
@@ -135,12 +155,11 @@ void SubtreeMoves::apply(uint32_t moved, uint32_t beside) {
     touch(parent);
     touch(sibling);
     touch(beside);
-    refresh(beside);
-    if (parent != 0) refresh(tree_.parent(parent));
+    update(beside);
+    if (parent != 0) update(tree_.parent(parent));
 }
 
-/// Brings nodes up to date, from one upwards until nothing changes.
-void SubtreeMoves::refresh(uint32_t from) {
+void SubtreeMoves::update(uint32_t from) {
     for (;; from = tree_.parent(from)) {
         const Node& left = tree_[tree_[from].left()];
         const Node& right = tree_[tree_[from].right()];

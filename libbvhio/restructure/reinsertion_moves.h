@@ -19,14 +19,31 @@ class SubtreeMoves {
     /// Moves a subtree beside another node, as their new parent's children, if that lowers the cost.
     bool move(uint32_t moved, uint32_t beside);
 
-    size_t bytes() const { return small_.size() * sizeof(Small); }
-
-  private:
     /// The references below a node, at most one more than a leaf may have; the cost of those that are few.
     struct Small {
         double cost;
         uint32_t count;
     };
+    /// What stands in a slot.
+    struct Content {
+        Node node;
+        Small small;
+    };
+
+    const TreeEditor& tree() const { return tree_; }
+    /// Whether a node is a leaf, or would become one.
+    bool isLeafInTheEnd(uint32_t slot) const;
+    /// For who changes the tree beside: a slot's content; puts it elsewhere; makes an inner node over a pair,
+    /// once its children are there.
+    Content content(uint32_t slot) const { return {tree_[slot], small_[slot]}; }
+    void put(uint32_t slot, const Content& content);
+    void make(uint32_t slot, uint32_t pair, const Aabb& box);
+    /// Brings nodes up to date, from one upwards until nothing changes.
+    void update(uint32_t from);
+
+    size_t bytes() const { return small_.size() * sizeof(Small); }
+
+  private:
     /// A node as a move would make it, and by how much the cost below and including it would change, without
     /// the moved subtree if that is large.
     struct Changed {
@@ -50,7 +67,6 @@ class SubtreeMoves {
     Changed withMoved(uint32_t moved, uint32_t beside) const;
     Changed above(uint32_t child, const Changed& below, const Aabb& box) const;
     void apply(uint32_t moved, uint32_t beside);
-    void refresh(uint32_t from);
     void touch(uint32_t slot);
 
     TreeEditor& tree_;

@@ -9,6 +9,7 @@
 #include "common/shuffled_tree.h"
 #include "common/test_scenes.h"
 #include "restructure/reinsertion_search.h"
+#include "restructure/reinsertion_treelet.h"
 
 namespace bvhio {
 namespace {
@@ -189,6 +190,37 @@ TEST(Reinsertion, stopsWhenNothingGains) {
     const Restructured once = restructureReinsertion(scene, builders()[0].function(scene, {}), options);
     EXPECT_LT(once.iterations.size(), 1000u);
     EXPECT_EQ(once.iterations.back().changes, 0u);
+}
+
+// Steps that fail must leave nothing behind, and those that succeed lower the cost of the tree they came
+// from.
+TEST(Reinsertion, recreatesTreelets) {
+    const Scene scene = test::sceneOf(test::randomTriangles(2000, 1, 0.1f));
+    const Bvh before = badTree(scene, 5);
+    for (const uint32_t leaves : {1u, 2u, 3u, 50u, 5000u})
+        for (const uint32_t steps : {0u, 1u, 500u}) {
+            RestructureOptions options;
+            options.collapse = leaves != 50;
+            TreeEditor tree(scene, before, options);
+            std::vector<uint8_t> touched(tree.size());
+            SubtreeMoves moves(tree, touched.data());
+            Treelet treelet(moves, 0, leaves);
+            Random random(1);
+            const uint32_t better = treelet.improve(steps, random);
+            treelet.write(moves);
+            tree.endIteration(better);
+            for (const uint32_t slot : treelet.openLeaves(moves)) ASSERT_FALSE(tree[slot].isLeaf());
+            const Bvh after = std::move(tree).finish(0).bvh;
+            test::expectValid(scene, after, kMaxLeafSize);
+            TreeEditor unchanged(scene, before, options);
+            const double unchangedCost = sahCost(std::move(unchanged).finish(0).bvh, {});
+            if (better == 0)
+                EXPECT_NEAR(sahCost(after, {}), unchangedCost, 1e-12 * unchangedCost);
+            else
+                EXPECT_LT(sahCost(after, {}), unchangedCost);
+            EXPECT_TRUE(better == 0 || (leaves >= 3 && steps > 0));
+            EXPECT_TRUE(better > 0 || leaves < 50 || steps < 500);
+        }
 }
 
 /// Every triangle overlaps every other one.

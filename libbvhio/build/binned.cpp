@@ -42,7 +42,7 @@ class BinnedSplitter {
 };
 
 Bvh build(const Scene& scene, const BuildOptions& options) {
-    const BinnedSplitter splitter(options.bins);
+    BinnedSplitter splitter(options.bins);
     return TopDownBuild<BinnedSplitter>(scene, options, splitter).build();
 }
 

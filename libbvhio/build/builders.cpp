@@ -4,12 +4,15 @@
 #include "build/lbvh.h"
 #include "build/median.h"
 #include "build/spatial.h"
+#include "build/sweep.h"
 
 namespace bvhio {
 
 std::span<const Builder> builders() {
     static constexpr Builder kTable[] = {
         {"binned", "binned SAH on all threads: fast, and good trees", buildBinned},
+        {"sweep", "SAH over all planes between centroids: twice binned's time, mostly better trees",
+         buildSweep},
         {"spatial", "SAH that may cut triangles between nodes: better trees, more references", buildSpatial},
         {"lbvh", "order along the Morton curve: built several times faster, worse trees", buildLbvh},
         {"median", "object median along the longest axis; no SAH, the plainest tree", buildMedian},

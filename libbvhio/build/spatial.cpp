@@ -261,7 +261,7 @@ class SpatialSplitter {
 };
 
 Bvh build(const Scene& scene, const BuildOptions& options) {
-    const SpatialSplitter splitter(scene, options.bins);
+    SpatialSplitter splitter(scene, options.bins);
     const double triangles = double(scene.triangles.size());
     // Twice as many nodes as references must have indices.
     const double room = std::min(triangles * double(options.splitBudget), 0x7FFFFFFF - triangles);

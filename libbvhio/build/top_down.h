@@ -31,11 +31,17 @@ struct Range {
 struct ReferenceArrays {
     Reference* sides[2];
 
-    Reference* at(const Range& range) const { return sides[range.side] + range.begin; }
+    size_t stride = 0;  // from one order to the next, for splitters that keep several
+
+    Reference* at(const Range& range, uint32_t order = 0) const {
+        return sides[range.side] + order * stride + range.begin;
+    }
     /// Where a split moves the left side to, and a right side of `rightCount`.
-    Reference* left(const Range& range) const { return sides[range.side ^ 1] + range.place; }
-    Reference* right(const Range& range, uint32_t rightCount) const {
-        return left(range) + (range.capacity - rightCount);
+    Reference* left(const Range& range, uint32_t order = 0) const {
+        return sides[range.side ^ 1] + order * stride + range.place;
+    }
+    Reference* right(const Range& range, uint32_t rightCount, uint32_t order = 0) const {
+        return left(range, order) + (range.capacity - rightCount);
     }
 };
 
@@ -80,11 +86,20 @@ Bvh gather(const ReferenceArrays& references, const Node& root, const TreePart& 
 /// split, and the range is halved. It is called from several threads at once. Where the range's capacity has
 /// room, a triangle may have a part on both sides, if neither side gets as many references as the range; it
 /// then sets the sides' demands for the rest of the room.
+///
+/// A splitter may keep the references in several orders, one behind the other in the arrays. It then provides
+///
+///     static constexpr uint32_t kOrders;
+///     void makeOrders(const ReferenceArrays&, Range&);
+///     void halve(const ReferenceArrays&, const Range&, Range& left, Range& right, bool parallel) const;
+///
+/// where `makeOrders` is given the references of all triangles in order 0 and writes all orders to the
+/// opposite array, and `halve` does what splitAtMedian does for a single order.
 template <class Splitter>
 class TopDownBuild {
   public:
     /// `room` is the number of references that splits may add.
-    TopDownBuild(const Scene& scene, const BuildOptions& options, const Splitter& splitter, uint32_t room = 0)
+    TopDownBuild(const Scene& scene, const BuildOptions& options, Splitter& splitter, uint32_t room = 0)
         : scene_(scene),
           leafRule_{options.costs.traversal, options.costs.intersection, std::max(options.maxLeafSize, 1u)},
           splitter_(splitter),
@@ -96,11 +111,16 @@ class TopDownBuild {
         range.count = uint32_t(scene_.triangles.size());
         if (progress_) progress_->start(range.count);
         Buffer<Reference> sides[2];
-        const bool rescaled = makeReferences(scene_, sides[0], range.bounds, room_);
+        const size_t places = (size_t(range.count) + room_) * kOrders;
+        const bool rescaled = makeReferences(scene_, sides[0], range.bounds, places - range.count);
         // Boxes of another scale than their triangles can't be split; and refitting would undo it.
         range.capacity = range.count + (rescaled ? 0 : room_);
-        sides[1] = Buffer<Reference>(range.capacity);
-        references_ = {sides[0].data(), sides[1].data()};
+        sides[1] = Buffer<Reference>(places);
+        references_ = {{sides[0].data(), sides[1].data()}, range.capacity};
+        if constexpr (kOrders > 1) {
+            splitter_.makeOrders(references_, range);
+            range.side = 1;
+        }
         primitives_ = Buffer<uint32_t>(range.capacity);
 
         Node root;
@@ -112,6 +132,12 @@ class TopDownBuild {
     }
 
   private:
+    static constexpr uint32_t kOrders = [] {
+        if constexpr (requires { Splitter::kOrders; })
+            return Splitter::kOrders;
+        else
+            return 1u;
+    }();
     static constexpr uint32_t kSharedSplit = 1u << 16;  // from here on all threads work on one split
     static constexpr uint32_t kTask = 1u << 12;         // up to here one task builds the whole subtree
 
@@ -138,10 +164,13 @@ class TopDownBuild {
     };
 
     void buildSubtree(const Range& range, Node& node, TreePart& part) {
-        Buffer<Reference> references(size_t(range.capacity) * 2);
+        const size_t places = size_t(range.capacity) * kOrders;
+        Buffer<Reference> references(places * 2);
         Buffer<Node> nodes(size_t(range.capacity) * 2);
-        std::copy_n(references_.at(range), range.count, references.data());
-        Workspace work{{references.data(), references.data() + range.capacity},
+        for (uint32_t order = 0; order < kOrders; ++order)
+            std::copy_n(references_.at(range, order), range.count,
+                        references.data() + order * size_t(range.capacity));
+        Workspace work{{{references.data(), references.data() + places}, range.capacity},
                        nodes.data(),
                        0,
                        primitives_.data() + range.place,
@@ -197,8 +226,12 @@ class TopDownBuild {
 
     void split(const ReferenceArrays& references, const Range& range, Range& left, Range& right,
                bool parallel) const {
-        if (!mayChooseSplit(range) || !splitter_.split(references, range, left, right, parallel))
-            splitAtMedian(references, range, left, right);
+        if (!mayChooseSplit(range) || !splitter_.split(references, range, left, right, parallel)) {
+            if constexpr (kOrders > 1)
+                splitter_.halve(references, range, left, right, parallel);
+            else
+                splitAtMedian(references, range, left, right);
+        }
         left.begin = left.place = range.place;
         left.capacity = left.count + shareOfRoom(range, left, right);
         right.place = range.place + left.capacity;
@@ -219,7 +252,7 @@ class TopDownBuild {
 
     const Scene& scene_;
     const LeafRule leafRule_;
-    const Splitter& splitter_;
+    Splitter& splitter_;
     Progress* const progress_;
     const uint32_t room_;
     Buffer<uint32_t> primitives_;

@@ -51,7 +51,7 @@ TEST(TopDown, keepsToTheDepthBoundWhateverTheSplitter) {
     const Scene scene = test::sceneOf(test::randomTriangles(20000, 1, 0.01f));
     BuildOptions options;
     options.maxLeafSize = 1;
-    const OneOff splitter;
+    OneOff splitter;
     const Bvh bvh = TopDownBuild<OneOff>(scene, options, splitter).build();
     EXPECT_LE(depthOf(bvh), kMaxDepth);
     EXPECT_GT(depthOf(bvh), kMaxDepth / 2);  // and takes over no sooner than it must
@@ -83,7 +83,7 @@ TEST(TopDown, medianSplitsHalveByCentroidThenByPosition) {
     Buffer<Reference> sides[2];
     const Range range = wholeRange(test::sceneOf(triangles), sides);
     Range left, right;
-    splitAtMedian({sides[0].data(), sides[1].data()}, range, left, right);
+    splitAtMedian({{sides[0].data(), sides[1].data()}}, range, left, right);
     ASSERT_EQ(left.count, 2u);
     ASSERT_EQ(right.count, 3u);
     const uint32_t expected[] = {1, 2, 0, 3, 4};
@@ -93,7 +93,7 @@ TEST(TopDown, medianSplitsHalveByCentroidThenByPosition) {
 
     Buffer<Reference> same[2];
     const Range coincident = wholeRange(test::coincidentScene(7), same);
-    splitAtMedian({same[0].data(), same[1].data()}, coincident, left, right);
+    splitAtMedian({{same[0].data(), same[1].data()}}, coincident, left, right);
     EXPECT_EQ(left.count, 3u);
     EXPECT_EQ(right.count, 4u);
     for (uint32_t i = 0; i < 7; ++i) EXPECT_EQ(same[1][i].primitive, i);

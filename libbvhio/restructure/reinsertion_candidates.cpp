@@ -9,16 +9,19 @@ namespace bvhio {
 namespace {
 
 float halfAreaOf(const Node& node, float scale) {
-    const float x = (node.bounds.max.x - node.bounds.min.x) * scale,
-                y = (node.bounds.max.y - node.bounds.min.y) * scale,
-                z = (node.bounds.max.z - node.bounds.min.z) * scale;
+    // Scaled before they are subtracted: extents may exceed a float, and no bin is there for what is no
+    // number.
+    const float x = node.bounds.max.x * scale - node.bounds.min.x * scale,
+                y = node.bounds.max.y * scale - node.bounds.min.y * scale,
+                z = node.bounds.max.z * scale - node.bounds.min.z * scale;
     return x * y + y * z + z * x;
 }
 
 /// What removing a node from its parent can gain by the parent's going alone, and more for a small node that
 /// makes its parent large (Bittner et al. 2013, 3.3, look at such ratios too).
-float promise(float area, float parentArea) {
-    return parentArea > 0 ? (parentArea - area) * parentArea / (area + 0.01f * parentArea) : 0;
+float promiseOf(float area, float parentArea) {
+    const float promise = (parentArea - area) * parentArea / (area + 0.01f * parentArea);
+    return promise > 0 ? promise : 0;  // what is no number, by areas too small, is no promise
 }
 
 }  // namespace
@@ -43,7 +46,7 @@ size_t Candidates::rate(size_t begin, size_t end, uint32_t* bins) {
         promises_[i] = -1;
         if (flags_[i] == 0 || i < 2) continue;
         const float area = halfAreaOf(tree_[uint32_t(i)], scale_);
-        promises_[i] = promise(area, halfAreaOf(tree_[tree_.parent(uint32_t(i))], scale_));
+        promises_[i] = promiseOf(area, halfAreaOf(tree_[tree_.parent(uint32_t(i))], scale_));
         ++bins[std::bit_cast<uint32_t>(promises_[i]) >> 19];
         ++count;
     }

@@ -43,7 +43,14 @@ class BinnedSplitter {
 
 Bvh build(const Scene& scene, const BuildOptions& options) {
     BinnedSplitter splitter(options.bins);
-    return TopDownBuild<BinnedSplitter>(scene, options, splitter).build();
+    return TopDownBuild<BinnedSplitter>(options, splitter).build(scene);
+}
+
+Bvh buildOver(Buffer<Reference>& references, const Box& bounds, const SahCosts& costs) {
+    BinnedSplitter splitter(0);
+    const auto count = uint32_t(references.size());
+    return TopDownBuild<BinnedSplitter>({.costs = costs, .maxLeafSize = 1}, splitter)
+        .build(std::move(references), count, bounds);
 }
 
 }  // namespace
@@ -55,6 +62,7 @@ HWY_AFTER_NAMESPACE();
 namespace bvhio {
 
 HWY_EXPORT(build);
+HWY_EXPORT(buildOver);
 
 void checkBins(const BuildOptions& options) {
     if (options.bins == 1 || options.bins > kMaxBins)
@@ -64,6 +72,10 @@ void checkBins(const BuildOptions& options) {
 Bvh buildBinned(const Scene& scene, const BuildOptions& options) {
     checkBins(options);
     return HWY_DYNAMIC_DISPATCH(build)(scene, options);
+}
+
+Bvh buildBinnedOver(Buffer<Reference> references, const Box& bounds, const SahCosts& costs) {
+    return HWY_DYNAMIC_DISPATCH(buildOver)(references, bounds, costs);
 }
 
 }  // namespace bvhio

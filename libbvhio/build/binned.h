@@ -2,6 +2,7 @@
 #pragma once
 
 #include "build/builders.h"
+#include "build/reference.h"
 
 namespace bvhio {
 
@@ -12,5 +13,8 @@ void checkBins(const BuildOptions& options);
 
 /// Throws as checkBins does.
 Bvh buildBinned(const Scene& scene, const BuildOptions& options);
+
+/// The tree over any boxes, with one in each leaf; its primitives are the references'.
+Bvh buildBinnedOver(Buffer<Reference> references, const Box& bounds, const SahCosts& costs);
 
 }  // namespace bvhio

@@ -265,7 +265,7 @@ Bvh build(const Scene& scene, const BuildOptions& options) {
     const double triangles = double(scene.triangles.size());
     // Twice as many nodes as references must have indices.
     const double room = std::min(triangles * double(options.splitBudget), 0x7FFFFFFF - triangles);
-    return TopDownBuild<SpatialSplitter>(scene, options, splitter, uint32_t(std::max(room, 0.0))).build();
+    return TopDownBuild<SpatialSplitter>(options, splitter, uint32_t(std::max(room, 0.0))).build(scene);
 }
 
 }  // namespace

@@ -238,7 +238,7 @@ class SweepSplitter {
 
 Bvh build(const Scene& scene, const BuildOptions& options) {
     SweepSplitter splitter(scene.triangles.size());
-    return TopDownBuild<SweepSplitter>(scene, options, splitter).build();
+    return TopDownBuild<SweepSplitter>(options, splitter).build(scene);
 }
 
 }  // namespace

@@ -99,24 +99,36 @@ template <class Splitter>
 class TopDownBuild {
   public:
     /// `room` is the number of references that splits may add.
-    TopDownBuild(const Scene& scene, const BuildOptions& options, Splitter& splitter, uint32_t room = 0)
-        : scene_(scene),
-          leafRule_{options.costs.traversal, options.costs.intersection, std::max(options.maxLeafSize, 1u)},
+    TopDownBuild(const BuildOptions& options, Splitter& splitter, uint32_t room = 0)
+        : leafRule_{options.costs.traversal, options.costs.intersection, std::max(options.maxLeafSize, 1u)},
           splitter_(splitter),
           progress_(options.progress),
           room_(room) {}
 
-    Bvh build() && {
-        Range range;
-        range.count = uint32_t(scene_.triangles.size());
-        if (progress_) progress_->start(range.count);
-        Buffer<Reference> sides[2];
-        const size_t places = (size_t(range.count) + room_) * kOrders;
-        const bool rescaled = makeReferences(scene_, sides[0], range.bounds, places - range.count);
+    /// The tree over a scene's triangles.
+    Bvh build(const Scene& scene) && {
+        const auto count = uint32_t(scene.triangles.size());
+        if (progress_) progress_->start(count);
+        Buffer<Reference> references;
+        Box bounds;
+        const size_t places = (size_t(count) + room_) * kOrders;
+        const bool rescaled = makeReferences(scene, references, bounds, places - count);
         // Boxes of another scale than their triangles can't be split; and refitting would undo it.
-        range.capacity = range.count + (rescaled ? 0 : room_);
-        sides[1] = Buffer<Reference>(places);
-        references_ = {{sides[0].data(), sides[1].data()}, range.capacity};
+        if (rescaled) room_ = 0;
+        Bvh bvh = std::move(*this).build(std::move(references), count, bounds);
+        if (rescaled) bvh.nodes = refitted(scene, bvh);
+        return bvh;
+    }
+
+    /// The tree over the first `count` references, within `bounds`; its primitives are theirs. The array has
+    /// places for all orders, with room.
+    Bvh build(Buffer<Reference> references, uint32_t count, const Box& bounds) && {
+        Range range;
+        range.bounds = bounds;
+        range.count = count;
+        range.capacity = count + room_;
+        Buffer<Reference> opposite(references.size());
+        references_ = {{references.data(), opposite.data()}, range.capacity};
         if constexpr (kOrders > 1) {
             splitter_.makeOrders(references_, range);
             range.side = 1;
@@ -126,9 +138,7 @@ class TopDownBuild {
         Node root;
         TreePart parts;
         buildPart(range, root, parts);
-        Bvh bvh = gather(references_, root, parts, std::move(primitives_));
-        if (rescaled) bvh.nodes = refitted(scene_, bvh);
-        return bvh;
+        return gather(references_, root, parts, std::move(primitives_));
     }
 
   private:
@@ -250,11 +260,10 @@ class TopDownBuild {
         return uint32_t(room * std::min(share, 1.0));
     }
 
-    const Scene& scene_;
     const LeafRule leafRule_;
     Splitter& splitter_;
     Progress* const progress_;
-    const uint32_t room_;
+    uint32_t room_;
     Buffer<uint32_t> primitives_;
     ReferenceArrays references_{};
 };

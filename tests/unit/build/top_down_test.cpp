@@ -52,7 +52,7 @@ TEST(TopDown, keepsToTheDepthBoundWhateverTheSplitter) {
     BuildOptions options;
     options.maxLeafSize = 1;
     OneOff splitter;
-    const Bvh bvh = TopDownBuild<OneOff>(scene, options, splitter).build();
+    const Bvh bvh = TopDownBuild<OneOff>(options, splitter).build(scene);
     EXPECT_LE(depthOf(bvh), kMaxDepth);
     EXPECT_GT(depthOf(bvh), kMaxDepth / 2);  // and takes over no sooner than it must
     EXPECT_EQ(bvh.nodeCount(), 2 * scene.triangles.size() - 1);

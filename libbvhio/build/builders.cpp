@@ -3,6 +3,7 @@
 #include "build/binned.h"
 #include "build/lbvh.h"
 #include "build/median.h"
+#include "build/ploc.h"
 #include "build/spatial.h"
 #include "build/sweep.h"
 
@@ -15,6 +16,7 @@ std::span<const Builder> builders() {
          buildSweep},
         {"spatial", "SAH that may cut triangles between nodes: better trees, more references", buildSpatial},
         {"lbvh", "order along the Morton curve: built several times faster, worse trees", buildLbvh},
+        {"ploc", "joins near clusters of triangles from the leaves up: often better than binned", buildPloc},
         {"median", "object median along the longest axis; no SAH, the plainest tree", buildMedian},
     };
     return kTable;

@@ -31,8 +31,11 @@ namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Overlap of an object split's sides, relative to their parent's area, from which cuts are tried.
-constexpr float kMinOverlap = 0.1f;
+/// Overlap of an object split's sides, relative to their parent's area, from which cuts are tried. Few of
+/// those tried for less pay; where references are few, fewer still.
+float minOverlap(uint32_t count) {
+    return count < 256 ? 0.3f : 0.1f;
+}
 
 /// Slabs per axis by default: many where a node is wide, few where references are.
 uint32_t defaultSlabs(uint32_t count) {
@@ -94,11 +97,9 @@ class SpatialSplitter {
     bool split(const ReferenceArrays& references, const Range& range, Range& left, Range& right,
                bool parallel) const {
         ObjectSplit object;
-        const bool found = findObjectSplit(references, range, bins_, parallel, object, left, right);
-        if (!splitSpace(references, range, found, left, right, parallel)) {
-            if (!found) return false;
+        if (!findObjectSplit(references, range, bins_, parallel, object, left, right)) return false;
+        if (!splitSpace(references, range, left, right, parallel))
             moveReferences(references, range, object, right.count, parallel);
-        }
         if (range.capacity > left.count + right.count) {
             left.demand = demand(references.left(range), left.count, parallel);
             right.demand = demand(references.right(range, right.count), right.count, parallel);
@@ -107,58 +108,72 @@ class SpatialSplitter {
     }
 
   private:
-    /// Cuts a range if that costs less than its object split, whose sides `left` and `right` describe if
-    /// there is one. Leaves these as they are if not.
-    bool splitSpace(const ReferenceArrays& references, const Range& range, bool objectSplit, Range& left,
-                    Range& right, bool parallel) const {
-        const float area = range.bounds.halfArea();
-        if (range.capacity == range.count || !(area > std::numeric_limits<float>::min())) return false;
-        float objectCost = kInfinity;
-        if (objectSplit) {
-            if (overlapArea(left.bounds, right.bounds) <= kMinOverlap * area) return false;
-            objectCost =
-                left.bounds.halfArea() * float(left.count) + right.bounds.halfArea() * float(right.count);
-        }
+    /// Cuts a range if that costs less than its object split, whose sides `left` and `right` describe. Leaves
+    /// these as they are if not.
+    bool splitSpace(const ReferenceArrays& references, const Range& range, Range& left, Range& right,
+                    bool parallel) const {
+        if (range.capacity == range.count) return false;
+        if (overlapArea(left.bounds, right.bounds) <= minOverlap(range.count) * range.bounds.halfArea())
+            return false;
+        const float objectCost =
+            left.bounds.halfArea() * float(left.count) + right.bounds.halfArea() * float(right.count);
         SpatialSplit split(range.bounds, bins_ == 0 ? defaultSlabs(range.count) : std::min(bins_, kMaxSlabs),
                            parallel ? kGrain : range.count);
-        const Reference* source = references.at(range);
-        if (!findSpatialSplit(scene_, source, range.count, range.capacity, split)) return false;
+        if (!findSpatialSplit(scene_, references.at(range), range.count, range.capacity, split)) return false;
         if (!(split.plane.cost < objectCost)) return false;
 
         Buffer<Crossing> crossings(split.plane.leftCount + split.plane.rightCount - range.count);
         Range sides[2];
-        cutCrossing(source, range.count, split, crossings, sides);
+        moveWholes(references, range, split, crossings, sides);
         if (!decide(split.plane, crossings, sides)) return false;
+        for (int side = 0; side < 2; ++side) {
+            // Behind the whole references on the left, before those on the right.
+            Reference* to = side == 0 ? references.left(range) + (range.count - split.plane.rightCount)
+                                      : references.right(range, sides[1].count);
+            for (size_t i = 0; i < crossings.size(); ++i) {
+                if (!crossings[i].has(side)) continue;
+                std::memcpy(static_cast<void*>(to), &crossings[i].parts[side], sizeof *to);
+                to++->primitive = crossings[i].whole.primitive;
+            }
+        }
         left = sides[0];
         right = sides[1];
-        move(references, range, split, crossings, right.count);
         return true;
     }
 
-    /// Cuts the references that cross the plane; sets the bounds of the sides without them.
-    void cutCrossing(const Reference* source, uint32_t count, const SpatialSplit& split,
-                     Buffer<Crossing>& crossings, Range (&sides)[2]) const {
+    /// Moves the references that the plane leaves whole, and cuts the others; sets the bounds of the sides
+    /// without these.
+    void moveWholes(const ReferenceArrays& references, const Range& range, const SpatialSplit& split,
+                    Buffer<Crossing>& crossings, Range (&sides)[2]) const {
+        const Reference* source = references.at(range);
         const int axis = split.plane.axis;
         const float at = split.slabs.plane(axis, split.plane.lastLeft + 1);
         std::vector<Box> wholes(2 * split.chunks.size());
-        parallelChunks(count, split.grain, [&](size_t begin, size_t end) {
+        parallelChunks(range.count, split.grain, [&](size_t begin, size_t end) {
             const size_t chunk = begin / split.grain;
-            Crossing* to = crossings.data() + split.chunks[chunk].crossingBefore;
+            const auto [leftBefore, crossingBefore] = split.chunks[chunk];
+            Crossing* crossing = crossings.data() + crossingBefore;
+            Reference* left = references.left(range) + leftBefore;
+            Reference* right = references.right(range, range.count - split.plane.leftCount) +
+                               (begin - leftBefore - crossingBefore);
             BoxV lefts = BoxV::empty(), rights = BoxV::empty();
             for (size_t i = begin; i < end; ++i) {
                 const BoxV box = BoxV::load(floats(source + i));
                 const Side side = sideOf(source[i], split);
-                if (side == Side::left)
+                if (side == Side::left) {
                     lefts = unite(lefts, box);
-                else if (side == Side::right)
+                    box.store(reinterpret_cast<float*>(left++));
+                } else if (side == Side::right) {
                     rights = unite(rights, box);
-                else
-                    cut(source[i], axis, at, *to++);
+                    box.store(reinterpret_cast<float*>(right++));
+                } else {
+                    cut(source[i], axis, at, *crossing++);
+                }
             }
             lefts.store(wholes[2 * chunk].negatedMin);
             rights.store(wholes[2 * chunk + 1].negatedMin);
         });
-        for (int side = 0; side < 2; ++side) {
+        for (size_t side = 0; side < 2; ++side) {
             sides[side].bounds = Box::empty();
             for (size_t i = side; i < wholes.size(); i += 2) sides[side].bounds.extend(wholes[i]);
         }
@@ -214,35 +229,6 @@ class SpatialSplitter {
             for (int side = 0; side < 2; ++side) sides[side].bounds.extend(crossing.parts[side]);
         }
         return true;
-    }
-
-    /// Moves the references of both sides: first those that are whole, then the decided ones.
-    static void move(const ReferenceArrays& references, const Range& range, const SpatialSplit& split,
-                     const Buffer<Crossing>& crossings, uint32_t rightCount) {
-        const Reference* source = references.at(range);
-        Reference* const sides[2] = {references.left(range), references.right(range, rightCount)};
-        parallelChunks(range.count, split.grain, [&](size_t begin, size_t end) {
-            const auto& chunk = split.chunks[begin / split.grain];
-            Reference* left = sides[0] + chunk.leftBefore;
-            Reference* right = sides[1] + (begin - chunk.leftBefore - chunk.crossingBefore);
-            for (size_t i = begin; i < end; ++i) {
-                const Side side = sideOf(source[i], split);
-                if (side == Side::left)
-                    *left++ = source[i];
-                else if (side == Side::right)
-                    *right++ = source[i];
-            }
-        });
-        const uint32_t wholes[2] = {range.count - split.plane.rightCount,
-                                    range.count - split.plane.leftCount};
-        for (int side = 0; side < 2; ++side) {
-            Reference* to = sides[side] + wholes[side];
-            for (size_t i = 0; i < crossings.size(); ++i) {
-                if (!crossings[i].has(side)) continue;
-                std::memcpy(static_cast<void*>(to), &crossings[i].parts[side], sizeof *to);
-                to++->primitive = crossings[i].whole.primitive;
-            }
-        }
     }
 
     static float demand(const Reference* references, uint32_t count, bool parallel) {

@@ -183,34 +183,25 @@ HWY_INLINE void addParts(const Corners& corners, const Reference& reference, int
     add(last, unite(from, c <= end ? high : b > end ? cutBelow(end) : cutAbove(end)));
 }
 
-/// Counts where references start and end.
-void countSlabs(const Reference* references, uint32_t count, const Slabs& slabs, SpatialBins& bins) {
-    for (uint32_t i = 0; i < count; ++i) {
-        const SlabRange range = slabsOf(references[i], slabs);
-        for (uint32_t axis = 0; axis < 3; ++axis) {
-            ++bins.starts[axis * slabs.count + uint32_t(range.first[axis])];
-            ++bins.ends[axis * slabs.count + uint32_t(range.last[axis])];
-        }
-    }
-}
-
-/// Adds the boxes of references, or of their parts, to the slabs they are in, on the axes of a mask.
+/// Adds the boxes of references, or of their parts, to the slabs they are in, and counts where they start and
+/// end.
 void fillSlabs(const Scene& scene, const Reference* references, uint32_t count, const Slabs& slabs,
-               uint32_t axes, SpatialBins& bins) {
+               SpatialBins& bins) {
     for (uint32_t i = 0; i < count; ++i) {
         const Reference& reference = references[i];
         const SlabRange range = slabsOf(reference, slabs);
         const BoxV box = BoxV::load(floats(&reference));
         uint32_t crossed = 0;
         for (uint32_t axis = 0; axis < 3; ++axis) {
-            if (range.first[axis] != range.last[axis]) {
+            const uint32_t first = axis * slabs.count + uint32_t(range.first[axis]),
+                           last = axis * slabs.count + uint32_t(range.last[axis]);
+            ++bins.starts[first];
+            ++bins.ends[last];
+            if (first != last)
                 crossed |= 1u << axis;
-                continue;
-            }
-            float* const to = bins.boxes[axis * slabs.count + uint32_t(range.first[axis])];
-            unite(BoxV::load(to), box).store(to);
+            else
+                unite(BoxV::load(bins.boxes[first]), box).store(bins.boxes[first]);
         }
-        crossed &= axes;
         if (crossed == 0) continue;
         const Corners corners(scene, reference.primitive);
         for (int axis = 0; axis < 3; ++axis)

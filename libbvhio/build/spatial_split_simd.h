@@ -55,32 +55,17 @@ HWY_INLINE bool mayCut(uint32_t leftCount, uint32_t rightCount, uint32_t count, 
            leftCount + rightCount <= capacity;
 }
 
-/// The axes, as a mask, that have a plane which may cut.
-uint32_t axesToCut(const SpatialBins& bins, uint32_t count, uint32_t capacity) {
-    uint32_t axes = 0;
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-        uint32_t started = 0, ended = 0;
-        for (uint32_t i = 0; i + 1 < bins.perAxis; ++i) {
-            started += bins.starts[axis * bins.perAxis + i];
-            ended += bins.ends[axis * bins.perAxis + i];
-            if (mayCut(started, count - ended, count, capacity)) axes |= 1u << axis;
-        }
-    }
-    return axes;
-}
-
 HWY_INLINE float halfArea(BoxV bounds) {
     Box box;
     bounds.store(box.negatedMin);
     return box.halfArea();
 }
 
-/// The plane of least SAH among those that may cut, on the axes of a mask; the first of equals.
-SpatialPlane bestSpatialPlane(const SpatialBins& bins, uint32_t axes, uint32_t count, uint32_t capacity) {
+/// The plane of least SAH among those that may cut, the first of equals.
+SpatialPlane bestSpatialPlane(const SpatialBins& bins, uint32_t count, uint32_t capacity) {
     SpatialPlane best;
     float rightAreas[kMaxSlabs];
     for (int axis = 0; axis < 3; ++axis) {
-        if (!(axes >> axis & 1)) continue;
         const uint32_t first = uint32_t(axis) * bins.perAxis;
         BoxV right = BoxV::empty();
         for (uint32_t i = bins.perAxis - 1; i > 0; --i) {
@@ -109,27 +94,16 @@ bool findSpatialSplit(const Scene& scene, const Reference* references, uint32_t 
     SpatialBins all;
     Buffer<SpatialBins> chunks(chunkCount > 1 ? chunkCount : 0);
     const auto binsOf = [&](size_t chunk) -> SpatialBins& { return chunkCount > 1 ? chunks[chunk] : all; };
-    const auto merge = [&] {
-        if (chunkCount == 1) return;
-        all.clear(split.slabs.count);
-        for (size_t i = 0; i < chunkCount; ++i) all.merge(chunks[i]);
-    };
-
-    // Counting is cheap, and may show that no plane will do.
     parallelChunks(count, split.grain, [&](size_t begin, size_t end) {
         SpatialBins& bins = binsOf(begin / split.grain);
         bins.clear(split.slabs.count);
-        countSlabs(references + begin, uint32_t(end - begin), split.slabs, bins);
+        fillSlabs(scene, references + begin, uint32_t(end - begin), split.slabs, bins);
     });
-    merge();
-    const uint32_t axes = axesToCut(all, count, capacity);
-    if (axes == 0) return false;
-    parallelChunks(count, split.grain, [&](size_t begin, size_t end) {
-        fillSlabs(scene, references + begin, uint32_t(end - begin), split.slabs, axes,
-                  binsOf(begin / split.grain));
-    });
-    merge();
-    split.plane = bestSpatialPlane(all, axes, count, capacity);
+    if (chunkCount > 1) {
+        all.clear(split.slabs.count);
+        for (size_t i = 0; i < chunkCount; ++i) all.merge(chunks[i]);
+    }
+    split.plane = bestSpatialPlane(all, count, capacity);
     if (split.plane.axis < 0) return false;
 
     split.chunks.resize(chunkCount);

@@ -4,6 +4,8 @@
 
 #include "core/collapse.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <atomic>
 #include <optional>
@@ -47,6 +49,9 @@ class Walk {
             out = {node.bounds, firstPrimitive, node.primitiveCount};
             return rule_ ? rule_->costs.intersection * halfArea(node.bounds) * node.primitiveCount : 0;
         }
+        // What is below the right child may be far away, and its turn comes later.
+        const Node& next = tree_.nodes[node.right()];
+        hwy::Prefetch(next.isLeaf() ? &next : &tree_.nodes[next.left()]);
         const auto pair = uint32_t(part_.nodes.size());
         part_.nodes.resize(pair + 2);
         Node left, right;

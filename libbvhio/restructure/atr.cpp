@@ -10,7 +10,8 @@
 //   the paper's distance, which no union makes shorter, the tree would be the same.
 // - A subset may count as a leaf of the final tree where that is cheaper, as in Karras and Aila 2013: in the
 //   paper leaves form only at the end, and what was gained until then may not be a gain.
-// - The few nodes near the root are passed over up to three times in an iteration.
+// - Nodes with at least 256 references, of which there are few, are passed over up to three times in an
+//   iteration, children before parents: the cost falls by up to another 2%.
 
 #include "restructure/atr.h"
 
@@ -62,9 +63,15 @@ class Clusters {
     float joinAll(TreeletPlan& plan) {
         while (std::popcount(alive_) > 2) {
             findNearest();
-            for (uint32_t open = alive_; open != 0; open &= open - 1) {
-                const auto a = uint32_t(std::countr_zero(open)), b = uint32_t(nearest_[a]);
-                if (a < b && uint32_t(nearest_[b]) == a) join(a, b, plan);
+            // No branches: they would often go wrong.
+            uint32_t firsts = 0;
+            for (uint32_t a = 0; a < size_; ++a) {
+                const auto b = uint32_t(nearest_[a]);
+                firsts |= uint32_t((a < b) & (uint32_t(nearest_[b]) == a)) << a;
+            }
+            for (; firsts != 0; firsts &= firsts - 1) {
+                const auto a = uint32_t(std::countr_zero(firsts));
+                join(a, uint32_t(nearest_[a]), plan);
             }
         }
         // The root needs no search. Slot 0 is always in use: of two slots the first stays.

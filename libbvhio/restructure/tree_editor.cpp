@@ -86,7 +86,7 @@ class LeafOpening {
 
 }  // namespace
 
-TreeEditor::TreeEditor(const Scene& scene, const Bvh& bvh, const RestructureOptions& options)
+TreeEditor::TreeEditor(const Scene& scene, const Bvh& bvh, const RestructureOptions& options, Links links)
     : given_(bvh), options_(options), primitives_(bvh.primitives) {
     maxLeafSize_ = options.maxLeafSize;
     if (maxLeafSize_ == 0) {
@@ -99,6 +99,7 @@ TreeEditor::TreeEditor(const Scene& scene, const Bvh& bvh, const RestructureOpti
         nodes_ = Buffer<Node>(bvh.nodes.size());
         std::copy(bvh.nodes.begin(), bvh.nodes.end(), nodes_.data());
     }
+    if (links == Links::none) return;
     parentOfPair_ = Buffer<uint32_t>(nodes_.size() / 2);
     parentOfPair_[0] = 0;
     parallelChunks(nodes_.size(), kGrain, [&](size_t begin, size_t end) {
@@ -152,8 +153,12 @@ void TreeEditor::endIteration(uint64_t changes) {
 
 Restructured TreeEditor::finish(size_t workBytes) && {
     const LooseTree tree{{nodes_.data(), nodes_.size()}, primitives_};
+    double givenCost = 0;
+    TaskGroup beside;
+    beside.run([&] { givenCost = sahCost(given_, options_.costs); });
     Bvh bvh = options_.collapse ? collapse(tree, options_.costs, maxLeafSize_) : depthFirst(tree);
-    if (!(sahCost(bvh, options_.costs) < sahCost(given_, options_.costs))) bvh = given_;
+    beside.wait();
+    if (!(sahCost(bvh, options_.costs) < givenCost)) bvh = given_;
     const double nodes = double(nodes_.size() - 1);
     return {std::move(bvh), std::move(iterations_), double(bytes() + workBytes) / nodes, recordingSeconds_};
 }

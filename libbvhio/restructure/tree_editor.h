@@ -9,13 +9,16 @@
 
 namespace bvhio {
 
-/// A tree of sibling pairs with links up. Methods move nodes between slots, which keeps their number, and
-/// need not keep children behind their parents; at first they are.
+/// A tree of sibling pairs, with links up where they are asked for. Methods move nodes between slots, which
+/// keeps their number, and need not keep children behind their parents; at first they are.
 class TreeEditor {
   public:
+    enum class Links { up, none };  // none: nodes have no parents to ask for or to set
+
     /// With options.collapse every leaf of several references is opened down to single ones, a part of a
     /// split triangle keeping the box that it has in that leaf; else leaves stay whole. Parallel.
-    TreeEditor(const Scene& scene, const Bvh& bvh, const RestructureOptions& options);
+    TreeEditor(const Scene& scene, const Bvh& bvh, const RestructureOptions& options,
+               Links links = Links::up);
 
     size_t size() const { return nodes_.size(); }
     /// 0 is the root, 1 unused; a pair is 2 k and 2 k + 1.

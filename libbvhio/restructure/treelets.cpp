@@ -54,6 +54,12 @@ class TreeletPass {
         parallelChunks(subtrees.size(), 1, [&](size_t i, size_t) {
             Workspace work;
             changes[i] = visitAll(nodesBelow(subtrees[i], gamma), work);
+            const uint32_t least = std::max(kTop, gamma);
+            for (uint32_t k = 1; k < topPasses_ && isCandidate(subtrees[i], least); ++k) {
+                const uint64_t more = visitAll(nodesBelow(subtrees[i], least), work);
+                changes[i] += more;
+                if (more == 0) break;
+            }
             if (progress) progress->add(states_[subtrees[i]].references);
         });
         uint64_t all = 0, done = 0;
@@ -62,10 +68,10 @@ class TreeletPass {
             done += states_[subtrees[i]].references;
         }
         Workspace work;
-        for (uint32_t i = 0; i < topPasses_; ++i) {
-            const uint64_t found = visitAll(top, work);
-            all += found;
-            if (found == 0) break;
+        for (uint32_t k = 0; k < topPasses_; ++k) {
+            const uint64_t more = visitAll(top, work);
+            all += more;
+            if (more == 0) break;
             top = nodesAbove(kSubtree, gamma, nullptr);
         }
         if (progress) progress->add(references() - done);
@@ -74,6 +80,7 @@ class TreeletPass {
 
   private:
     static constexpr uint32_t kSubtree = 4096;  // most references of a subtree that one task takes
+    static constexpr uint32_t kTop = 256;       // fewest references of a node that may be visited repeatedly
 
     /// What is known of a node beside its box.
     struct State {
@@ -228,7 +235,6 @@ class TreeletPass {
             for (uint32_t side = 0; side < 2; ++side) {
                 editor_[pair + side] = nodes[children[side]];
                 states_[pair + side] = states[children[side]];
-                editor_.adopt(pair + side);
             }
             const State &left = states[children[0]], &right = states[children[1]];
             const Aabb bounds = unite(nodes[children[0]].bounds, nodes[children[1]].bounds);
@@ -240,7 +246,6 @@ class TreeletPass {
         // The root keeps its box, which may be wider than its children's.
         const uint32_t root = work.inner[0];
         editor_[root].first = pairs[0];
-        editor_.adopt(root);
         states_[root].cost = costOf(root);
     }
 
@@ -261,7 +266,7 @@ Restructured restructureTreelets(const Scene& scene, const Bvh& bvh, const Restr
     if (size < 3 || size > method.largestSize)
         throw Error(ErrorKind::usage, "treelet size " + std::to_string(size) + ": the method takes 3 to " +
                                           std::to_string(method.largestSize));
-    TreeEditor editor(scene, bvh, options);
+    TreeEditor editor(scene, bvh, options, TreeEditor::Links::none);
     TreeletPass pass(editor, method, size);
     std::vector<uint32_t> gammas;
     const uint32_t iterations = options.iterations == 0 ? method.iterations : options.iterations;

@@ -20,8 +20,9 @@ struct TreeletCosts {
 
     /// Of a node over two subtrees: an inner node, or a leaf if one may form and costs less.
     float of(float area, float references, float left, float right) const {
-        const float inner = traversal * area + (left + right), leaf = intersection * area * references;
-        return references <= maxLeafSize && leaf < inner ? leaf : inner;
+        const float inner = traversal * area + (left + right);
+        const float leaf = references <= maxLeafSize ? intersection * area * references : inner;
+        return leaf < inner ? leaf : inner;
     }
 };
 
@@ -51,7 +52,7 @@ using TreeletPlanner = bool (*)(const Treelet& treelet, const TreeletCosts& cost
 struct TreeletMethod {
     uint32_t size, largestSize;  // leaves of a treelet: by default, and at most
     uint32_t iterations;         // by default
-    uint32_t topPasses;          // most passes in an iteration over the few nodes near the root
+    uint32_t topPasses;          // most passes in an iteration over the few nodes with many references
     TreeletPlanner planner;
 };
 

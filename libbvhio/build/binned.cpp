@@ -24,6 +24,9 @@ namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
+/// Over boxes of subtrees the tree is the better for more bins than over triangles, and they are few.
+constexpr uint32_t kBinsOver = 32;
+
 class BinnedSplitter {
   public:
     /// `bins` per axis; 0 = by the number of references.
@@ -47,7 +50,7 @@ Bvh build(const Scene& scene, const BuildOptions& options) {
 }
 
 Bvh buildOver(Buffer<Reference>& references, const Box& bounds, const SahCosts& costs) {
-    BinnedSplitter splitter(0);
+    BinnedSplitter splitter(kBinsOver);
     const auto count = uint32_t(references.size());
     return TopDownBuild<BinnedSplitter>({.costs = costs, .maxLeafSize = 1}, splitter)
         .build(std::move(references), count, bounds);

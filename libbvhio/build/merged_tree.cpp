@@ -43,11 +43,33 @@ Bvh MergedTree::finish(const Reference& root) {
     for (size_t round = rounds_.size(); round-- > 0;) {
         const uint32_t begin = rounds_[round];
         parallelChunks(end - begin, kGrain, [&](size_t first, size_t last) {
-            for (size_t i = last; i-- > first;) place(begin + uint32_t(i), nodes.data(), primitives.data());
+            constexpr size_t kAhead = 16;
+            for (size_t i = last; i-- > first;) {
+                prefetchBelow(begin + uint32_t(std::max(i, first + 2 * kAhead) - 2 * kAhead));
+                prefetchTriangles(begin + uint32_t(std::max(i, first + kAhead) - kAhead));
+                place(begin + uint32_t(i), nodes.data(), primitives.data());
+            }
         });
         end = begin;
     }
     return {std::move(nodes).share(), std::move(primitives).share()};
+}
+
+/// What `place` reads is anywhere in memory: ask for it early, in two steps.
+void MergedTree::prefetchBelow(uint32_t number) const {
+    for (const uint32_t key : pairs_[number].keys) {
+        if (isLeaf(key))
+            hwy::Prefetch(&scene_.triangles[order_.triangles[key / 2]]);
+        else
+            hwy::Prefetch(&pairs_[key / 2].below);
+    }
+}
+void MergedTree::prefetchTriangles(uint32_t number) const {
+    for (const uint32_t key : pairs_[number].keys) {
+        if (!isLeaf(key)) continue;
+        const TriangleIndices& t = scene_.triangles[order_.triangles[key / 2]];
+        for (const uint32_t vertex : {t.v0, t.v1, t.v2}) hwy::Prefetch(&scene_.vertices[vertex]);
+    }
 }
 
 /// Writes a pair's nodes, and tells the pairs below them their places.

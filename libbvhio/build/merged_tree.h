@@ -1,6 +1,8 @@
 // A tree made from the leaves up, and how it becomes canonical.
 #pragma once
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -25,6 +27,11 @@ class MergedTree {
     void startRound(uint32_t pair) {
         while (!rounds_.empty() && rounds_.back() >= pair) rounds_.pop_back();
         rounds_.push_back(pair);
+    }
+
+    /// Asks for what `join` will read about a cluster.
+    void prefetch(const Reference& cluster) const {
+        if (!isLeaf(cluster.primitive)) hwy::Prefetch(&pairs_[cluster.primitive / 2].below);
     }
 
     /// Joins two clusters as pair number `pair`, and returns the cluster above. From several threads at once,
@@ -86,6 +93,8 @@ class MergedTree {
     }
     uint32_t leafCount() const { return uint32_t(order_.triangles.size()); }
     Aabb boundsOf(uint32_t key) const;
+    void prefetchBelow(uint32_t number) const;
+    void prefetchTriangles(uint32_t number) const;
     void place(uint32_t number, Node* nodes, uint32_t* primitives);
     Bvh finishDeep(const Reference& root) const;
 

@@ -188,6 +188,7 @@ class PlocBuild {
   private:
     static constexpr size_t kGrain = 1 << 12;
     static constexpr uint32_t kUpperShare = 8;
+    static constexpr uint32_t kAhead = 16;  // clusters to ask for before they are joined
 
     void joinUntil(uint32_t count) {
         while (count_ > count) {
@@ -239,22 +240,25 @@ class PlocBuild {
             // First all that stay, then the joined ones over the first of each pair: no branch that nobody
             // can predict.
             struct Joined {
-                uint32_t first, to;
+                uint32_t first, second, to;
             };
             Joined joined[kGrain];
             uint32_t joinedCount = 0;
             for (auto i = uint32_t(begin); i < end; ++i) {
                 const int offset = kOffsets(i, nearest_[i]);
                 const bool isJoined = nearest_[i + uint32_t(offset)] == nearest_[i];
-                joined[joinedCount] = {i, to};
+                joined[joinedCount] = {i, i + uint32_t(offset), to};
                 joinedCount += isJoined && offset > 0;
                 const bool stays = !(isJoined && offset < 0);
                 if (stays) joined_[to] = clusters_[i];
                 to += stays;
             }
             for (uint32_t k = 0; k < joinedCount; ++k) {
-                const uint32_t i = joined[k].first, partner = i + uint32_t(kOffsets(i, nearest_[i]));
-                joined_[joined[k].to] = tree_.join(pair++, clusters_[i], clusters_[partner]);
+                const Joined& ahead = joined[std::min(k + kAhead, joinedCount - 1)];
+                tree_.prefetch(clusters_[ahead.first]);
+                tree_.prefetch(clusters_[ahead.second]);
+                const auto [first, second, at] = joined[k];
+                joined_[at] = tree_.join(pair++, clusters_[first], clusters_[second]);
             }
         });
         std::swap(clusters_, joined_);
@@ -266,19 +270,31 @@ class PlocBuild {
     void joinUpper() {
         const uint32_t remaining = count_, firstPair = pairCount_;
         Buffer<Reference> lower(remaining), references(remaining);
-        Box bounds = Box::empty();
-        float splitCost = 0;
-        for (uint32_t i = 0; i < remaining; ++i) {
-            lower[i] = references[i] = clusters_[i];
-            references[i].primitive = i;
-            bounds.extend({{lower[i].negatedMin[0], lower[i].negatedMin[1], lower[i].negatedMin[2], 0},
-                           {lower[i].max[0], lower[i].max[1], lower[i].max[2], 0}});
-            splitCost += tree_.cost(lower[i]);
+        struct Sum {
+            Box bounds = Box::empty();
+            float cost = 0;
+        };
+        std::vector<Sum> chunks((remaining + kGrain - 1) / kGrain);
+        parallelChunks(remaining, kGrain, [&](size_t begin, size_t end) {
+            Sum& sum = chunks[begin / kGrain];
+            for (size_t i = begin; i < end; ++i) {
+                const Reference& cluster = lower[i] = references[i] = clusters_[i];
+                references[i].primitive = uint32_t(i);
+                sum.bounds.extend({{cluster.negatedMin[0], cluster.negatedMin[1], cluster.negatedMin[2], 0},
+                                   {cluster.max[0], cluster.max[1], cluster.max[2], 0}});
+                sum.cost += tree_.cost(cluster);
+            }
+        });
+        Sum all;
+        for (const Sum& sum : chunks) {
+            all.bounds.extend(sum.bounds);
+            all.cost += sum.cost;
         }
-        const Bvh split = buildBinnedOver(std::move(references), bounds, options_.costs);
+        const Bvh split = buildBinnedOver(std::move(references), all.bounds, options_.costs);
+        double splitCost = all.cost;
         for (size_t i = 0; i < split.nodes.size(); ++i)
-            if (!split.nodes[i].isLeaf() && i != 1)
-                splitCost += options_.costs.traversal * float(halfArea(split.nodes[i].bounds));
+            if (i != 1 && !split.nodes[i].isLeaf())
+                splitCost += options_.costs.traversal * halfArea(split.nodes[i].bounds);
         joinUntil(1);
         if (!(splitCost < tree_.cost(clusters_[0]))) return;
         pairCount_ = firstPair;

@@ -23,12 +23,12 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kIterations = 6;
+constexpr uint32_t kIterations = 4;
 constexpr size_t kPart = 20, kFewest = 1024;  // of the nodes a pass looks at one in kPart, or this many
 constexpr uint32_t kBatches = 4;
 constexpr size_t kGrain = 128;
 // Treelets: after how many passes, their leaves, and the slots that make for a step in each pass.
-constexpr uint32_t kPassesBefore = 3, kTreeletLeaves = 512, kSlotsPerStep = 64, kFewestSteps = 32;
+constexpr uint32_t kPassesBefore = 2, kTreeletLeaves = 512, kSlotsPerStep = 64, kFewestSteps = 32;
 constexpr uint32_t kCuts = 3;   // ways to cut the tree, each with four times as many treelets
 constexpr uint32_t kIdle = 16;  // passes without a change after which there is nothing left to find
 

@@ -39,18 +39,18 @@ size_t Candidates::bytes() const {
     return flags_.size() * (sizeof(uint8_t) + sizeof(float)) + selected_.capacity() * sizeof(uint32_t);
 }
 
-/// Rates the flagged slots of a chunk; adds them to bins of like promise and returns how many they are.
-size_t Candidates::rate(size_t begin, size_t end, uint32_t* bins) {
-    size_t count = 0;
-    for (size_t i = begin; i < end; ++i) {
-        promises_[i] = -1;
-        if (flags_[i] == 0 || i < 2) continue;
-        const float area = halfAreaOf(tree_[uint32_t(i)], scale_);
-        promises_[i] = promiseOf(area, halfAreaOf(tree_[tree_.parent(uint32_t(i))], scale_));
-        ++bins[std::bit_cast<uint32_t>(promises_[i]) >> 19];
-        ++count;
+/// Rates the flagged slots of a chunk of pairs, and counts them in bins of like promise.
+void Candidates::rate(size_t begin, size_t end, uint32_t* bins) {
+    for (size_t pair = begin; pair < end; pair += 2) {
+        promises_[pair] = promises_[pair + 1] = -1;
+        if (pair == 0 || (flags_[pair] | flags_[pair + 1]) == 0) continue;
+        const float parentArea = halfAreaOf(tree_[tree_.parent(uint32_t(pair))], scale_);
+        for (const size_t slot : {pair, pair + 1}) {
+            if (flags_[slot] == 0) continue;
+            promises_[slot] = promiseOf(halfAreaOf(tree_[uint32_t(slot)], scale_), parentArea);
+            ++bins[std::bit_cast<uint32_t>(promises_[slot]) >> 19];
+        }
     }
-    return count;
 }
 
 const std::vector<uint32_t>& Candidates::select(size_t wanted) {

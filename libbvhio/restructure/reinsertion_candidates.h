@@ -24,7 +24,7 @@ class Candidates {
   private:
     static constexpr size_t kGrain = 1 << 15, kBins = 1 << 12;
 
-    size_t rate(size_t begin, size_t end, uint32_t* bins);
+    void rate(size_t begin, size_t end, uint32_t* bins);
 
     const TreeEditor& tree_;
     const float scale_;

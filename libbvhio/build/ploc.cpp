@@ -2,9 +2,8 @@
 // construction"; with later work's finer points, Benthin et al. 2022, "PLOC++"): clusters, at first one a
 // triangle, in Morton order. In each round every cluster finds the one within a radius in the order with
 // which its common box is smallest, and those that find each other are joined. Departures:
-// - Equal distances are told apart by i ^ j, the places' difference in bits: so a million equal boxes pair up
-//   with their neighbours at once. Chains in which each finds the one before it, with few mutual pairs, are
-//   followed by a round that joins neighbours in the order.
+// - Chains in which each finds the one before it make few mutual pairs: the next round then joins neighbours
+//   in the order, so that rounds are at most logarithmically many.
 // - Greedy joining is a little worse than top-down splits where surfaces are smooth, and better on parts of
 //   mixed sizes. So the clusters left when they are an eighth of the triangles get both trees, and the
 //   cheaper one is kept.
@@ -13,12 +12,12 @@
 #include "build/ploc.h"
 
 #include <algorithm>
-#include <bit>
 #include <vector>
 
 #include "build/binned.h"
 #include "build/merged_tree.h"
 #include "build/morton.h"
+#include "build/ploc_search.h"
 #include "core/parallel.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -28,108 +27,10 @@
 
 #include "build/boxes_simd.h"
 
-#ifndef BVHIO_BUILD_PLOC_CPP
-#define BVHIO_BUILD_PLOC_CPP
-namespace bvhio {
-namespace {
-
-constexpr uint32_t kSearchGrain = 1 << 10;  // clusters that a task searches for
-constexpr uint32_t kRadius = 16;            // a power of two
-
-/// Partners of cluster i are i + k and i - k, k from 1 to kRadius. Two clusters call each other by the same
-/// number, lower for smaller k: 2 (k - 1), and 1 more for every other pair at that distance. For that, pairs
-/// at distance k = 2^n * odd number alternate with bit n of their first one.
-constexpr uint32_t kPartners = 2 * kRadius;
-
-/// Where the partners are: what to add to i. At most log2 of kRadius and one more low bits of i matter.
-struct PartnerOffsets {
-    int8_t offsets[kPartners][kPartners];
-
-    constexpr PartnerOffsets() : offsets{} {
-        for (uint32_t i = 0; i < kPartners; ++i)
-            for (uint32_t number = 0; number < kPartners; ++number) {
-                const uint32_t k = number / 2 + 1;
-                const bool isAfter = (i >> std::countr_zero(k) & 1) == (number & 1);
-                offsets[i][number] = int8_t(isAfter ? int(k) : -int(k));
-            }
-    }
-    int operator()(uint32_t i, uint8_t number) const { return offsets[i % kPartners][number]; }
-};
-
-}  // namespace
-}  // namespace bvhio
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
-
-using Lanes = hn::ScalableTag<float>;
-using LanesU = hn::RebindToUnsigned<Lanes>;
-
-/// The boxes around a chunk of clusters, each coordinate by itself; far away where there are none.
-class Surroundings {
-  public:
-    Surroundings(const Reference* clusters, uint32_t count, uint32_t begin, uint32_t end) {
-        const int64_t first = int64_t(begin) - kRadius, last = int64_t(end) + kRadius + kMostLanes;
-        const int64_t from = std::max<int64_t>(first, 0), to = std::min<int64_t>(last, count);
-        for (auto& numbers : numbers_) {
-            std::fill(numbers, numbers + (from - first), kFar);
-            std::fill(numbers + (to - first), numbers + (last - first), kFar);
-        }
-        for (int64_t i = from; i < to; ++i)
-            for (int axis = 0; axis < 3; ++axis) {
-                numbers_[axis][i - first] = clusters[i].negatedMin[axis];
-                numbers_[axis + 3][i - first] = clusters[i].max[axis];
-            }
-    }
-
-    /// A coordinate of the boxes from the chunk's place `i` on.
-    HWY_INLINE hn::Vec<Lanes> load(int number, int64_t i) const {
-        return hn::LoadU(Lanes(), numbers_[number] + kRadius + i);
-    }
-
-  private:
-    static constexpr uint32_t kMostLanes = 64;
-    static constexpr float kFar = 0x1p60f;
-    alignas(64) float numbers_[6][kSearchGrain + 2 * kRadius + kMostLanes];
-};
-
-/// Finds the nearest one for each cluster of [begin, end).
-void findNearest(const Reference* clusters, uint32_t count, uint32_t begin, uint32_t end, uint8_t* nearest) {
-    const Lanes d;
-    const LanesU du;
-    using V = hn::Vec<Lanes>;
-    using VU = hn::Vec<LanesU>;
-    const Surroundings boxes(clusters, count, begin, end);
-    const auto lanes = uint32_t(hn::Lanes(d));
-    const VU one = hn::Set(du, 1), distance = hn::Set(du, ~(kPartners - 1));
-    for (uint32_t i = 0; begin + i < end; i += lanes) {
-        const V x0 = boxes.load(0, i), y0 = boxes.load(1, i), z0 = boxes.load(2, i), x1 = boxes.load(3, i),
-                y1 = boxes.load(4, i), z1 = boxes.load(5, i);
-        // The area of the common box, and in its lowest bits the partner.
-        const auto rate = [&](int64_t j, VU partner) HWY_ATTR {
-            const V x = hn::Add(hn::Max(x0, boxes.load(0, j)), hn::Max(x1, boxes.load(3, j)));
-            const V y = hn::Add(hn::Max(y0, boxes.load(1, j)), hn::Max(y1, boxes.load(4, j)));
-            const V z = hn::Add(hn::Max(z0, boxes.load(2, j)), hn::Max(z1, boxes.load(5, j)));
-            const V area = hn::Add(hn::Add(hn::Mul(x, y), hn::Mul(y, z)), hn::Mul(z, x));
-            return hn::Or(hn::And(hn::BitCast(du, area), distance), partner);
-        };
-        VU least = hn::Set(du, ~0u);
-        const VU places = hn::Iota(du, begin + i);
-        for (uint32_t k = 1; k <= kRadius; ++k) {
-            const VU side = hn::And(hn::ShiftRightSame(places, std::countr_zero(k)), one);
-            const VU after = hn::Or(side, hn::Set(du, 2 * (k - 1)));
-            least = hn::Min(least, rate(int64_t(i) + k, after));
-            least = hn::Min(least, rate(int64_t(i) - k, hn::Xor(after, one)));
-        }
-        alignas(64) uint32_t found[64];
-        hn::Store(least, du, found);
-        for (uint32_t lane = 0; lane < std::min(end - begin - i, lanes); ++lane)
-            nearest[begin + i + lane] = uint8_t(found[lane] % kPartners);
-    }
-}
 
 /// The clusters of one triangle each at places [begin, end) of the order.
 void makeClusters(const Scene& scene, const MortonOrder& order, uint32_t begin, uint32_t end,
@@ -153,7 +54,6 @@ HWY_AFTER_NAMESPACE();
 namespace bvhio {
 namespace {
 
-HWY_EXPORT(findNearest);
 HWY_EXPORT(makeClusters);
 
 class PlocBuild {
@@ -205,8 +105,7 @@ class PlocBuild {
 
     void findNearestOfAll() {
         parallelChunks(count_, kSearchGrain, [&](size_t begin, size_t end) {
-            HWY_DYNAMIC_DISPATCH(findNearest)
-            (clusters_.data(), count_, uint32_t(begin), uint32_t(end), nearest_.data());
+            findNearest(clusters_.data(), count_, uint32_t(begin), uint32_t(end), nearest_.data());
         });
     }
 

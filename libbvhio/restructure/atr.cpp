@@ -10,7 +10,7 @@
 //   the paper's distance, which no union makes shorter, the tree would be the same.
 // - A subset may count as a leaf of the final tree where that is cheaper, as in Karras and Aila 2013: in the
 //   paper leaves form only at the end, and what was gained until then may not be a gain.
-// - Nodes with at least 256 references, of which there are few, are passed over up to three times in an
+// - Nodes with at least 512 references, of which there are few, are passed over up to three times in an
 //   iteration, children before parents: the cost falls by up to another 2%.
 
 #include "restructure/atr.h"

@@ -5,7 +5,6 @@
 #include "restructure/reinsertion_search.h"
 
 #include <algorithm>
-#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "restructure/reinsertion_search.cpp"
@@ -163,13 +162,6 @@ namespace {
 HWY_EXPORT(findSome);
 
 }  // namespace
-
-float areaScale(const Aabb& root) {
-    double extent = 0;
-    for (int axis = 0; axis < 3; ++axis) extent = std::max(extent, double(root.max[axis]) - root.min[axis]);
-    if (extent == 0) return 1;
-    return std::ldexp(1.0f, std::clamp(-std::ilogb(extent), -126, 127));
-}
 
 void findPlaces(const TreeEditor& tree, float scale, std::span<const uint32_t> nodes, Place* places) {
     HWY_DYNAMIC_DISPATCH(findSome)(tree, scale, nodes, places);

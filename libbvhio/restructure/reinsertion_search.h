@@ -14,9 +14,6 @@ struct Place {
     uint32_t beside = 0;
 };
 
-/// A power of two that brings the root's extent near 1, so that areas in float neither overflow nor vanish.
-float areaScale(const Aabb& root);
-
 /// The best place for each of some nodes, none of them the root. The search is exact but for rounding, unless
 /// a node has thousands of places that could be the best: then it is the best of those seen first.
 void findPlaces(const TreeEditor& tree, float scale, std::span<const uint32_t> nodes, Place* places);

@@ -1,6 +1,7 @@
 #include "restructure/tree_editor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/collapse.h"
@@ -161,6 +162,13 @@ Restructured TreeEditor::finish(size_t workBytes) && {
     if (!(sahCost(bvh, options_.costs) < givenCost)) bvh = given_;
     const double nodes = double(nodes_.size() - 1);
     return {std::move(bvh), std::move(iterations_), double(bytes() + workBytes) / nodes, recordingSeconds_};
+}
+
+float areaScale(const Aabb& root) {
+    double extent = 0;
+    for (int axis = 0; axis < 3; ++axis) extent = std::max(extent, double(root.max[axis]) - root.min[axis]);
+    if (extent == 0) return 1;
+    return std::ldexp(1.0f, std::clamp(-std::ilogb(extent), -126, 127));
 }
 
 }  // namespace bvhio

@@ -61,4 +61,7 @@ class TreeEditor {
     Clock::time_point iterationStart_ = Clock::now();
 };
 
+/// A power of two that brings the root's extent near 1, so that areas in float neither overflow nor vanish.
+float areaScale(const Aabb& root);
+
 }  // namespace bvhio

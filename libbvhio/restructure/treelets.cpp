@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <string>
 
 #include "core/error.h"
@@ -18,16 +17,6 @@
 namespace bvhio {
 namespace {
 
-/// A power of two that brings the root's extents near 2^30: so areas fit floats, and are not zero for boxes
-/// that are many orders smaller.
-float scaleFor(const Aabb& root) {
-    double extent = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        extent = std::max(extent, double(root.max[axis]) - double(root.min[axis]));
-    if (!(extent > 0)) return 1;
-    return float(std::ldexp(1.0, std::clamp(30 - std::ilogb(extent), -126, 126)));
-}
-
 class TreeletPass {
   public:
     TreeletPass(TreeEditor& editor, const TreeletMethod& method, uint32_t size)
@@ -35,7 +24,7 @@ class TreeletPass {
           planner_(method.planner),
           topPasses_(method.topPasses),
           size_(size),
-          scale_(scaleFor(editor[0].bounds)),
+          scale_(areaScale(editor[0].bounds)),
           costs_{editor.options().costs.traversal, editor.options().costs.intersection,
                  editor.options().collapse ? float(editor.maxLeafSize()) : 0.0f},
           states_(editor.size()) {
@@ -80,7 +69,7 @@ class TreeletPass {
 
   private:
     static constexpr uint32_t kSubtree = 4096;  // most references of a subtree that one task takes
-    static constexpr uint32_t kTop = 256;       // fewest references of a node that may be visited repeatedly
+    static constexpr uint32_t kTop = 512;       // fewest references of a node that may be visited repeatedly
 
     /// What is known of a node beside its box.
     struct State {

@@ -5,7 +5,7 @@ Usage: compare_methods.py [--rounds N] [--rays N] [--chains CHAIN,...] [--table 
 
 A chain is BUILDER, or BUILDER+METHOD[:ITERATIONS]; without --chains every builder is tried alone and with every method
 that bvh-restructure has. The tools must be on PATH; --plot needs matplotlib (Debian: python3-matplotlib). Trees are built
-for SAH costs of 1 and 1. In each round every chain runs once, so that what disturbs the machine disturbs all; times and
+for SAH costs of 1 and 1. --table keeps a page up to its line <!-- compare_methods.py writes what follows -->. In each round every chain runs once, so that what disturbs the machine disturbs all; times and
 rates are medians over the rounds, of the passes themselves, without reading and writing files.
 """
 import argparse
@@ -27,6 +27,7 @@ COLUMNS = [  # key, heading, format
     ("TC", "TC", "{:.2f}"),
     ("mrays", "diffuse Mrays/s", "{:.2f}"),
 ]
+MARKER = "<!-- compare_methods.py writes what follows -->"
 COLOURS = ["#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb"]
 MARKS = "osD^vP*X"
 
@@ -108,6 +109,17 @@ def table(title, rows):
     return "\n".join(lines) + "\n"
 
 
+def write_table(path, text):
+    """Replaces what follows the marker in a page that has it, and else the whole file."""
+    head = ""
+    if os.path.exists(path):
+        with open(path) as file:
+            before, marker, _ = file.read().partition(MARKER)
+            head = before + marker + "\n\n" if marker else ""
+    with open(path, "w") as file:
+        file.write(head + text)
+
+
 def plot(scenes, path):
     """Cost against time for each scene, the builders in colours and the methods as marks; the nearer to the lower left corner
     the better."""
@@ -171,8 +183,7 @@ def main():
             scenes.append((os.path.splitext(os.path.basename(scene))[0], rows))
     text = "\n".join(table(title, rows) for title, rows in scenes)
     if options.table:
-        with open(options.table, "w") as file:
-            file.write(text)
+        write_table(options.table, text)
     else:
         print(text, end="")
     if options.plot:

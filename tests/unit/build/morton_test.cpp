@@ -90,6 +90,27 @@ TEST(MortonOrder, interleavesTheBitsOfTheAxes) {
               expected);
 }
 
+// The largest power of two that denormals can be scaled by is the largest of all: twice it is infinite, and
+// so were the grid's origin and extent.
+TEST(MortonOrder, isTheSameAtAnyScale) {
+    Scene scene = test::sphereScene(40, 20);
+    std::vector<Vec3> vertices(scene.vertices.begin(), scene.vertices.end());
+    for (Vec3& v : vertices)  // few bits, which denormals hold too
+        v = {std::round(v.x * 0x1p10f) + 0.0f, std::round(v.y * 0x1p10f) + 0.0f,
+             std::round(v.z * 0x1p10f) + 0.0f};
+    scene.vertices = std::vector<Vec3>(vertices);
+    const MortonOrder expected = mortonOrder(scene);
+    for (const float scale : {0x1p-149f, 0x1p-138f, 0x1p-136f, 0x1p-60f, 0x1p116f}) {
+        std::vector<Vec3> scaled = vertices;
+        for (Vec3& v : scaled) v = v * scale;
+        scene.vertices = std::move(scaled);
+        const MortonOrder order = mortonOrder(scene);
+        EXPECT_TRUE(std::equal(order.triangles.data(), order.triangles.data() + order.triangles.size(),
+                               expected.triangles.data()))
+            << scale;
+    }
+}
+
 // Importers keep vertices that no triangle uses: they must not make the grid too coarse.
 TEST(MortonOrder, ignoresUnusedVertices) {
     const Scene scene = test::sphereScene(40, 20);

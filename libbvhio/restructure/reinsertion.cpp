@@ -154,10 +154,12 @@ Restructured restructureReinsertion(const Scene& scene, const Bvh& bvh, const Re
     const uint32_t iterations = options.iterations != 0 ? options.iterations : kIterations;
     if (options.progress) options.progress->start(iterations);
     Reinsertion reinsertion(tree);
-    for (uint32_t i = 0; i < iterations && !reinsertion.done(); ++i) {
+    uint32_t made = 0;
+    for (; made < iterations && !reinsertion.done(); ++made) {
         tree.endIteration(reinsertion.iterate());
         if (options.progress) options.progress->add(1);
     }
+    if (options.progress) options.progress->add(iterations - made);
     return std::move(tree).finish(reinsertion.bytes());
 }
 

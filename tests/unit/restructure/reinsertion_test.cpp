@@ -187,9 +187,12 @@ TEST(Reinsertion, stopsWhenNothingGains) {
     const Scene scene = test::sphereScene(20, 10);
     RestructureOptions options;
     options.iterations = 100000;
+    Progress progress;
+    options.progress = &progress;
     const Restructured once = restructureReinsertion(scene, builders()[0].function(scene, {}), options);
     EXPECT_LT(once.iterations.size(), 1000u);
     EXPECT_EQ(once.iterations.back().changes, 0u);
+    EXPECT_EQ(progress.done.load(), progress.total.load());
 }
 
 // Steps that fail must leave nothing behind, and those that succeed lower the cost of the tree they came

@@ -172,7 +172,7 @@ void CommandLine::number(const std::string& names, float& value, float min, floa
             if (!number || !(*number >= min && *number <= max))
                 throw Error(ErrorKind::usage, name + ": '" + text + "' is not a number from " +
                                                   shortest(min) + " to " + shortest(max));
-            value = *number;
+            value = *number + 0.0f;  // -0 is 0: files have no -0
         },
         [&value] { return Report(*parseNumber<double>(shortest(value))); });
 }

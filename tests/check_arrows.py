@@ -22,7 +22,7 @@ THIRD_PARTY = {
     "tiny_obj_loader.h": ["libbvhio/scene/"],
     "meshoptimizer.h": ["libbvhio/scene/"],
     "png.h": ["libbvhio/trace/image"],
-    "hwy/": ["libbvhio/build/", "libbvhio/trace/", "libbvhio/compress/", "libbvhio/stats/", "libbvhio/core/"],
+    "hwy/": ["libbvhio/build/", "libbvhio/restructure/", "libbvhio/trace/", "libbvhio/compress/", "libbvhio/stats/", "libbvhio/core/"],
     "CLI/": ["tools/common/"],
     "spdlog/": ["tools/common/"],
 }

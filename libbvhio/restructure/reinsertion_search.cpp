@@ -28,27 +28,28 @@ constexpr float kLeastGain = 1e-6f;
 struct BoxV {
     FourV low, high;
 
-    /// The fourth lanes hold whatever stands behind; of `high` zeros, since integers there are denormals.
-    static HWY_INLINE BoxV load(const Node& node) {
+    /// Scaled at once, since an extent may exceed a float. The fourth lanes hold whatever stands behind; of
+    /// `high` zeros, since integers there are denormals.
+    static HWY_INLINE BoxV load(const Node& node, FourV scale) {
         const Four d;
         alignas(16) static constexpr uint32_t kThree[4] = {~0u, ~0u, ~0u, 0};
         const float* lanes = &node.bounds.min.x;
-        return {hn::Load(d, lanes), hn::And(hn::LoadU(d, lanes + 3),
-                                            hn::BitCast(d, hn::Load(hn::RebindToUnsigned<Four>(), kThree)))};
+        const FourV three = hn::BitCast(d, hn::Load(hn::RebindToUnsigned<Four>(), kThree));
+        return {hn::Mul(hn::Load(d, lanes), scale), hn::Mul(hn::And(hn::LoadU(d, lanes + 3), three), scale)};
     }
     friend HWY_INLINE BoxV unite(BoxV a, BoxV b) { return {hn::Min(a.low, b.low), hn::Max(a.high, b.high)}; }
     HWY_INLINE FourV extent() const { return hn::Sub(high, low); }
 };
 
 /// Half areas of four boxes.
-HWY_INLINE void halfAreas(BoxV a, BoxV b, BoxV c, BoxV e, FourV scale, float* areas) {
+HWY_INLINE void halfAreas(BoxV a, BoxV b, BoxV c, BoxV e, float* areas) {
     const Four d;
     const FourV ea = a.extent(), eb = b.extent(), ec = c.extent(), ee = e.extent();
     const FourV lower0 = hn::InterleaveLower(d, ea, eb), lower1 = hn::InterleaveLower(d, ec, ee);
     const FourV upper0 = hn::InterleaveUpper(d, ea, eb), upper1 = hn::InterleaveUpper(d, ec, ee);
-    const FourV x = hn::Mul(hn::ConcatLowerLower(d, lower1, lower0), scale);
-    const FourV y = hn::Mul(hn::ConcatUpperUpper(d, lower1, lower0), scale);
-    const FourV z = hn::Mul(hn::ConcatLowerLower(d, upper1, upper0), scale);
+    const FourV x = hn::ConcatLowerLower(d, lower1, lower0);
+    const FourV y = hn::ConcatUpperUpper(d, lower1, lower0);
+    const FourV z = hn::ConcatLowerLower(d, upper1, upper0);
     hn::Store(hn::Add(hn::Add(hn::Mul(x, y), hn::Mul(y, z)), hn::Mul(z, x)), d, areas);
 }
 
@@ -59,10 +60,10 @@ class Search {
 
     HWY_INLINE Place find(uint32_t moved) {
         const uint32_t parent = tree_.parent(moved), sibling = tree_.sibling(moved);
-        moved_ = BoxV::load(nodes_[moved]);
-        BoxV left = BoxV::load(nodes_[sibling]);  // by the moved node: what remains at the level reached
+        moved_ = load(nodes_[moved]);
+        BoxV left = load(nodes_[sibling]);  // by the moved node: what remains at the level reached
         alignas(16) float areas[4];
-        halfAreas(moved_, left, BoxV::load(nodes_[parent]), left, scale_, areas);
+        halfAreas(moved_, left, load(nodes_[parent]), left, areas);
         movedArea_ = areas[0];
         float removed = areas[2];  // the areas that removing the node frees
         best_ = {removed * kLeastGain, 0};
@@ -75,9 +76,9 @@ class Search {
             const bool worthwhile = removed - movedArea_ > best_.gain;
             if (!shrinks && !worthwhile) break;
             at = tree_.parent(at);
-            const BoxV box = BoxV::load(nodes_[other]), above = BoxV::load(nodes_[at]);
+            const BoxV box = load(nodes_[other]), above = load(nodes_[at]);
             left = unite(left, box);
-            halfAreas(box, unite(box, moved_), above, left, scale_, areas);
+            halfAreas(box, unite(box, moved_), above, left, areas);
             if (worthwhile) {
                 const float gain = removed - areas[1];
                 consider(gain, other);
@@ -96,6 +97,8 @@ class Search {
     }
 
   private:
+    HWY_INLINE BoxV load(const Node& node) const { return BoxV::load(node, scale_); }
+
     struct Open {
         float bound;
         uint32_t pair;
@@ -112,9 +115,9 @@ class Search {
         uint32_t open = 0;
         while (pairsLeft_ != 0) {
             --pairsLeft_;
-            const BoxV a = BoxV::load(nodes_[pair]), b = BoxV::load(nodes_[pair + 1]);
+            const BoxV a = load(nodes_[pair]), b = load(nodes_[pair + 1]);
             alignas(16) float areas[4];
-            halfAreas(a, unite(a, moved_), b, unite(b, moved_), scale_, areas);
+            halfAreas(a, unite(a, moved_), b, unite(b, moved_), areas);
             const float gainA = bound - areas[1], gainB = bound - areas[3];
             consider(gainA, pair);
             consider(gainB, pair + 1);

@@ -3,6 +3,7 @@
 #include "restructure/restructurers.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <string>
 
@@ -124,6 +125,22 @@ TEST_P(RestructurerOverManyTriangles, givesTheSameBytesWithAnyNumberOfThreads) {
             EXPECT_TRUE(test::sameBytes(first, bvh)) << threads << " threads";
         }
     }
+}
+
+// Areas that differ on one processor rank places and treelets otherwise.
+TEST_P(RestructurerOverManyTriangles, givesTheSameBytesOnEveryProcessor) {
+    const Scene scene = test::sceneOf(test::randomTriangles(20000, 1, 0.05f));
+    const Bvh before = builders()[0].function(scene, {});
+    const Bvh expected = GetParam()->function(scene, before, {}).bvh;
+    const int64_t supported = hwy::SupportedTargets();
+    for (int64_t targets = supported; targets != 0; targets &= targets - 1) {
+        hwy::SetSupportedTargetsForTest(targets & -targets);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        EXPECT_TRUE(test::sameBytes(expected, GetParam()->function(scene, before, {}).bvh))
+            << hwy::TargetName(targets & -targets);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 std::vector<const Restructurer*> allRestructurers() {

@@ -143,9 +143,12 @@ def plot(scenes, path):
                 name, _, method = row["chain"].partition(" + ")
                 if name == builder:
                     points.append((row["seconds"], row["sah"], method))
-            axis.plot(*zip(*((x, y) for x, y, _ in sorted(points))), color=colour, linewidth=0.8, alpha=0.5, zorder=1)
+            axis.plot(*zip(*((x, y) for x, y, _ in sorted(points))), color=colour, linewidth=0.8, alpha=0.5)
             for x, y, method in points:
-                axis.scatter(x, y, color=colour, marker=MARKS[methods.index(method) % len(MARKS)], s=34, zorder=2)
+                axis.scatter(x, y, color=colour, marker=MARKS[methods.index(method) % len(MARKS)], s=34, zorder=3)
+        # What costs almost twice the best would leave no room for the others.
+        costs = [row["sah"] for row in rows]
+        axis.set_ylim(0.97 * min(costs), 1.03 * min(max(costs), 1.75 * min(costs)))
         axis.set_title(title, fontsize=10)
         axis.set_xscale("log")
         axis.set_yscale("log")

@@ -191,7 +191,7 @@ class Gathering {
         if (Walk(tree_, rule_, part).becomesLeaf(0, part.cost, part.root))
             top_[top].children = 0;
         else
-            part.primitives.clear();
+            part.primitives = {};
     }
 
     /// The primitives below a top node; false when they are too many for a leaf.

@@ -121,6 +121,8 @@ void TreeEditor::open(const Scene& scene) {
         ends[begin / kGrain] = pairs;
     });
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    if (given + 2 * ends.back() > 0xFFFFFFFE)
+        throw Error(ErrorKind::resources, "too many references to open all leaves: use --no-collapse");
     nodes_ = Buffer<Node>(given + 2 * ends.back());
     std::copy(given_.nodes.begin(), given_.nodes.end(), nodes_.data());
     parallelChunks(given, kGrain, [&](size_t begin, size_t end) {

@@ -32,7 +32,7 @@ ExitCode compress(CommandLine& line) {
     BvhxFile file = pass.read();
     pass.stages().begin("compress");
     if (formNameOf(file.bvh) != form) {
-        file.bvh = choose(forms(), "form", form).function(decode(file.bvh));
+        file.bvh = choose(forms(), "form", form).function(file.scene, decode(file.bvh), {});
         dropChunksThatDoNotSurvive(file, Change::reordered);
     }
     WriteOptions options;

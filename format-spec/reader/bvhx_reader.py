@@ -24,7 +24,7 @@ UNSUPPORTED = {1003, 1004, 1014, 2001, 2008, 2010}
 CRITICAL = 1
 
 # Known types in file order: flags.
-KNOWN = {"SCEN": 7, "VERT": 7, "TRIS": 7, "DRCO": 7, "GEOM": 7, "SRCP": 7, "TREE": 1, "NODE": 1, "PRIM": 1, "PROV": 6}
+KNOWN = {"SCEN": 7, "VERT": 7, "TRIS": 7, "DRCO": 7, "GEOM": 7, "SRCP": 7, "TREE": 1, "FORM": 1, "NODE": 1, "PRIM": 1, "PROV": 6}
 
 
 class Rejected(Exception):
@@ -192,11 +192,46 @@ def inside(inner, outer):
     return all(outer[i] <= inner[i] and outer[i + 3] >= inner[i + 3] for i in range(3))
 
 
-def check_aabb(raw_nodes, raw_primitives, slots, references, stated_depth, scene):
-    nodes = list(struct.iter_unpack("<6f2I", raw_nodes))
+def read_aabb(chunks, slots, references):
+    """The form's nodes as tuples (box of six numbers, first, count), and the leaf order."""
+    raw = chunks.expect("NODE", 32 * slots)
+    reject_if(any(raw[32:64]), 3001, "slot 1")
+    return list(struct.iter_unpack("<6f2I", raw)), chunks.expect("PRIM", 4 * references)
+
+
+def read_ssh(chunks, slots, references):
+    reject_if(references > 2**25, 2011, "references")
+    raw = chunks.expect("FORM", 64)
+    reject_if(any(raw[24:]), 2006, "FORM: reserved")
+    records = list(struct.iter_unpack("<fI", chunks.expect("NODE", 8 * slots)))
+    reject_if(records[1] != (0, 0) or math.copysign(1, records[1][0]) < 0, 3001, "slot 1")
+    inherited, nodes = {0: struct.unpack_from("<6f", raw)}, []
+    for index, (plane, word) in enumerate(records):
+        if index == 1:
+            nodes.append((0,) * 8)
+            continue
+        side, kind, rest = word & 7, word >> 3 & 3, word >> 5
+        reject_if(side > 5, 3010, f"node {index}")
+        if kind != 3:
+            reject_if(2 * rest <= index or 2 * rest >= slots, 3002, f"node {index}")
+        reject_if(index not in inherited, 3003, f"node {index}")
+        box = list(inherited[index])
+        reject_if(math.isfinite(plane) and (plane < box[side] if side < 3 else plane > box[side]), 4002, f"node {index}")
+        box[side] = plane
+        if kind == 3:
+            nodes.append((*box, rest & (2**25 - 1), (rest >> 25) + 1))
+        else:
+            inherited[2 * rest] = inherited[2 * rest + 1] = box
+            nodes.append((*box, 2 * rest, 0))
+    return nodes, chunks.expect("PRIM", 4 * references)
+
+
+FORMS = {b"aabb": read_aabb, b"ssh ": read_ssh}
+
+
+def check_tree(nodes, raw_primitives, slots, references, stated_depth, scene):
     primitives = struct.unpack(f"<{references}I", raw_primitives)
     triangles, boxes = scene["triangles"], scene["boxes"]
-    reject_if(any(raw_nodes[32:64]), 3001, "slot 1")
     for index, node in enumerate(nodes):
         bad = not all(map(math.isfinite, node[:6])) or any(node[i] > node[i + 3] for i in range(3))
         reject_if(bad and index != 1, 4001, f"node {index}")
@@ -241,15 +276,14 @@ def read_tree(chunks, scene):
     raw = chunks.expect("TREE", 64)
     form, reserved, slots, references, traversal, intersection, depth = struct.unpack_from("<4sIQQ2fI", raw)
     reject_if(reserved != 0 or any(raw[36:]), 2006, "TREE: reserved")
-    reject_if(form != b"aabb", 2010, f"form {form}")
+    reject_if(form not in FORMS, 2010, f"form {form}")
     reject_if(not (scene["triangles"] <= references < 2**32 and 2 <= slots <= 2 * references and slots < 2**32
                    and slots % 2 == 0 and depth <= 96), 2011, "TREE: counts")
     for cost in (traversal, intersection):
         reject_if(not math.isfinite(cost) or math.copysign(1, cost) < 0, 2012, "SAH cost")
-    nodes = chunks.expect("NODE", 32 * slots)
-    primitives = chunks.expect("PRIM", 4 * references)
-    check_aabb(nodes, primitives, slots, references, depth, scene)
-    return {"form": form.decode(), "nodes": slots - 1, "references": references, "depth": depth}
+    nodes, primitives = FORMS[form](chunks, slots, references)
+    check_tree(nodes, primitives, slots, references, depth, scene)
+    return {"form": form.decode().strip(), "nodes": slots - 1, "references": references, "depth": depth}
 
 
 def read_provenance(raw):

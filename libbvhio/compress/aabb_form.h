@@ -19,12 +19,14 @@ class AabbForm {
     };
 
     explicit AabbForm(Bvh bvh) : bvh_(std::move(bvh)) {}
-    static AabbForm encode(const Bvh& bvh) { return AabbForm(bvh); }
+    static AabbForm encode(const Scene&, const Bvh& bvh, const EncodeOptions&) { return AabbForm(bvh); }
 
     Bvh decode() const { return bvh_; }
     const Bvh& bvh() const { return bvh_; }
     std::span<const uint32_t> primitives() const { return bvh_.primitives; }
     size_t nodeBytes() const { return bvh_.nodes.size() * sizeof(Node); }
+
+    using Ray = const PreparedRay&;
 
     template <class Metrics>
     BVHIO_INLINE bool enterRoot(const PreparedRay& ray, float tLimit, Entered<Cursor>& root,
@@ -39,8 +41,9 @@ class AabbForm {
 
     /// The record is the pair of siblings: one cache line.
     template <class Metrics>
-    BVHIO_INLINE int step(Cursor cursor, const PreparedRay& ray, float tLimit, Entered<Cursor>* children,
-                          Metrics& metrics) const {
+    BVHIO_INLINE int step(const Entered<Cursor>& from, const PreparedRay& ray, float tLimit,
+                          Entered<Cursor>* children, Metrics& metrics) const {
+        const Cursor cursor = from.cursor;
         metrics.recordFetched(cursor.first * sizeof(Node), 2 * sizeof(Node));
         metrics.boxesTested(2, kBoxTestCost);
         const Node* pair = bvh_.nodes.data() + cursor.first;

@@ -8,6 +8,7 @@
 
 #include "core/bvh.h"
 #include "core/intersect.h"
+#include "scene/scene.h"
 
 namespace bvhio {
 
@@ -39,12 +40,17 @@ struct NoMetrics {
     BVHIO_INLINE void popped(size_t) {}
 };
 
+/// What forms can be told; each takes what concerns it.
+struct EncodeOptions {};
+
 /// A form stores a BVH, decodes it, and lets rays step through it as stored. Traversal (trace/traverse.h)
 /// owns the stack, the order and the culling; a form owns its Cursor (an index; an index and a decoded box;
 /// an index and ray parameters) and:
 ///
+/// - Ray: what it makes of a PreparedRay once before the traversal; a reference to that where nothing.
 /// - enterRoot: tests the root's box; false when the ray misses it. Else `root` is where traversal starts.
-/// - step: from the cursor of an inner node, tests the children's boxes and writes those entered to
+/// - encode: of a valid tree over the scene. Boxes may grow; leaves keep their triangles, but may be divided.
+/// - step: from an inner node as it was entered, tests the children's boxes and writes those entered to
 /// `children`, nearest first (equal
 ///   ones in stored order); returns how many. A child is entered when its part of the ray, cut off at
 ///   `tLimit`, is not empty. The contract that makes hits the same for every form: accept a child whenever
@@ -54,9 +60,11 @@ struct NoMetrics {
 ///
 /// Each record fetched and each box tested is told to the metrics.
 template <class F>
-concept Form = requires(const F form, const typename F::Cursor cursor, const PreparedRay ray, float tLimit,
+concept Form = requires(const F form, const typename F::Cursor cursor, const typename F::Ray ray,
+                        float tLimit, const Entered<typename F::Cursor> entered,
                         Entered<typename F::Cursor>* children, Entered<typename F::Cursor>& root,
-                        NoMetrics metrics) {
+                        NoMetrics metrics, const Scene scene, const Bvh bvh, const EncodeOptions options) {
+    { F::encode(scene, bvh, options) } -> std::same_as<F>;
     { F::kName } -> std::convertible_to<std::string_view>;
     { F::kSummary } -> std::convertible_to<std::string_view>;
     { F::kMaxChildren } -> std::convertible_to<int>;
@@ -64,7 +72,7 @@ concept Form = requires(const F form, const typename F::Cursor cursor, const Pre
     { form.primitives() } -> std::convertible_to<std::span<const uint32_t>>;  // leaf order -> triangle
     { form.nodeBytes() } -> std::same_as<size_t>;                             // in memory, nodes only
     { form.enterRoot(ray, tLimit, root, metrics) } -> std::same_as<bool>;
-    { form.step(cursor, ray, tLimit, children, metrics) } -> std::same_as<int>;
+    { form.step(entered, ray, tLimit, children, metrics) } -> std::same_as<int>;
     { form.isLeaf(cursor) } -> std::same_as<bool>;
     { form.primitiveRange(cursor) } -> std::same_as<PrimitiveRange>;
 };

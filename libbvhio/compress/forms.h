@@ -5,20 +5,23 @@
 #include <variant>
 
 #include "compress/aabb_form.h"
+#include "compress/ssh_form.h"
 #include "core/choice.h"
 
 namespace bvhio {
 
-using EncodedBvh = std::variant<AabbForm>;
+using EncodedBvh = std::variant<AabbForm, SshForm>;
 
 /// A row of the table that the variant makes: a form's name, its summary and its encoder.
-using FormChoice = Choice<EncodedBvh (*)(const Bvh&)>;
+using FormChoice = Choice<EncodedBvh (*)(const Scene&, const Bvh&, const EncodeOptions&)>;
 
 namespace detail {
 template <class... Forms>
 constexpr std::array<FormChoice, sizeof...(Forms)> formTable(const std::variant<Forms...>*) {
     return {FormChoice{Forms::kName, Forms::kSummary,
-                       [](const Bvh& bvh) { return EncodedBvh(Forms::encode(bvh)); }}...};
+                       [](const Scene& scene, const Bvh& bvh, const EncodeOptions& options) {
+                           return EncodedBvh(Forms::encode(scene, bvh, options));
+                       }}...};
 }
 }  // namespace detail
 

@@ -52,6 +52,7 @@ std::span<const FindingKind> findingKinds() {
         {missingPrimitive, invalid, "a triangle is in no leaf"},
         {depth, invalid, "the tree is too deep"},
         {statedDepth, invalid, "the tree's depth is not the stated one"},
+        {nodeField, invalid, "a field of a node has a value that means nothing"},
 
         {boxNotFinite, invalid, "a node's box is not finite or has min > max"},
         {childOutsideParent, invalid, "a child's box leaves its parent's"},

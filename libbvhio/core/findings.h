@@ -59,6 +59,7 @@ enum class FindingId : uint32_t {
     missingPrimitive = 3007,
     depth = 3008,
     statedDepth = 3009,
+    nodeField = 3010,
 
     boxNotFinite = 4001,
     childOutsideParent = 4002,

@@ -14,6 +14,7 @@ std::span<const ChunkKind> chunkKinds() {
         {kGeometriesType, all, "geometries"},
         {kSourcePrimitivesType, all, "source primitives"},
         {kTreeType, kCritical, "tree parameters"},
+        {kFormType, kCritical, "form parameters"},
         {kNodesType, kCritical, "nodes"},
         {kPrimitivesType, kCritical, "primitives"},
         {kProvenanceType, kSurvivesReorder | kSurvivesTopologyChange, "provenance"},

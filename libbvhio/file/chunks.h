@@ -17,6 +17,7 @@ inline constexpr uint32_t kDracoType = chunkType("DRCO");
 inline constexpr uint32_t kGeometriesType = chunkType("GEOM");
 inline constexpr uint32_t kSourcePrimitivesType = chunkType("SRCP");
 inline constexpr uint32_t kTreeType = chunkType("TREE");
+inline constexpr uint32_t kFormType = chunkType("FORM");
 inline constexpr uint32_t kNodesType = chunkType("NODE");
 inline constexpr uint32_t kPrimitivesType = chunkType("PRIM");
 

@@ -50,8 +50,9 @@ HWY_INLINE void traverse(const F& form, const Source& source, const PreparedRay&
     Entry stack[kMaxDepth * (F::kMaxChildren - 1) + 1];
     Entry* top = stack;
 
+    const typename F::Ray formRay(ray);
     Entry current;
-    if (!form.enterRoot(ray, query.boxLimit(), current, metrics)) return;
+    if (!form.enterRoot(formRay, query.boxLimit(), current, metrics)) return;
     for (;;) {
         int entered = 0;
         if (form.isLeaf(current.cursor)) {
@@ -60,7 +61,7 @@ HWY_INLINE void traverse(const F& form, const Source& source, const PreparedRay&
             if (source.test(range, ray, query)) return;
         } else {
             Entry children[F::kMaxChildren];
-            entered = form.step(current.cursor, ray, query.boxLimit(), children, metrics);
+            entered = form.step(current, formRay, query.boxLimit(), children, metrics);
             for (int i = entered - 1; i > 0; --i) {
                 *top++ = children[i];
                 metrics.pushed(sizeof(Entry));

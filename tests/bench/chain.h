@@ -1,8 +1,9 @@
-// A builder, then any number of restructurers: BUILDER[+METHOD[:ITERATIONS]]...
+// A builder, then any number of restructurers, then a form: BUILDER[+METHOD[:ITERATIONS]]...[@FORM]
 #pragma once
 
 #include "bench_common.h"
 #include "build/builders.h"
+#include "compress/forms.h"
 #include "restructure/restructurers.h"
 
 namespace bvhio::bench {
@@ -10,7 +11,10 @@ namespace bvhio::bench {
 class Chain {
   public:
     /// Throws Error{usage} for names that no table has.
-    explicit Chain(const std::string& text) : name_(text) {
+    explicit Chain(const std::string& name) : name_(name), form_(&forms()[0]) {
+        const size_t at = std::min(name.find('@'), name.size());
+        if (at < name.size()) form_ = &choose(forms(), "form", name.substr(at + 1));
+        const std::string text = name.substr(0, at);
         size_t end = std::min(text.find('+'), text.size());
         builder_ = &choose(builders(), "builder", text.substr(0, end));
         while (end < text.size()) {
@@ -42,6 +46,8 @@ class Chain {
         return bvh;
     }
 
+    EncodedBvh encode(const Scene& scene, const Bvh& bvh) const { return form_->function(scene, bvh, {}); }
+
   private:
     struct Step {
         const Restructurer* restructurer;
@@ -50,6 +56,7 @@ class Chain {
     std::string name_;
     const Builder* builder_;
     std::vector<Step> steps_;
+    const FormChoice* form_;
 };
 
 }  // namespace bvhio::bench

@@ -1,10 +1,10 @@
 // How fast rays are traced, against Embree's robust mode, on one thread: closest hits of primary and diffuse
-// rays through the trees of one or several chains, in the aabb form. Runs of all are interleaved and medians
+// rays through the trees of one or several chains. Runs of all are interleaved and medians
 // taken, so a busy machine hurts all alike. Hits must agree with Embree's except where t differs by less than
 // 1e-5 of itself.
 //
 //     trace_bench [--rounds N] [--resolution N] [--intersection-cost C] [--chain
-//     BUILDER[+METHOD[:ITERATIONS]]]...
+//     BUILDER[+METHOD[:ITERATIONS]][@FORM]]...
 //                 SCENE...
 //
 // Without --chain: the default builder's tree. `to first` is the rate over that of the first chain.
@@ -84,7 +84,8 @@ struct Contestant {
     std::vector<double> seconds;
 
     Contestant(const Chain& chain, const Scene& scene, const SahCosts& costs)
-        : bvh(AabbForm(chain.restructure(scene, chain.build(scene, costs), costs))), tracer(scene, bvh) {}
+        : bvh(chain.encode(scene, chain.restructure(scene, chain.build(scene, costs), costs))),
+          tracer(scene, bvh) {}
 };
 
 void run(const Options& options, const std::vector<Chain>& chains) {
@@ -172,7 +173,7 @@ int main(int argc, char** argv) {
     if (options.scenes.empty()) {
         std::fprintf(stderr,
                      "trace_bench [--rounds N] [--resolution N] [--intersection-cost C] "
-                     "[--chain BUILDER[+METHOD[:ITERATIONS]]]... SCENE...\n");
+                     "[--chain BUILDER[+METHOD[:ITERATIONS]][@FORM]]... SCENE...\n");
         return 1;
     }
     if (options.chains.empty()) options.chains.emplace_back(builders()[0].name);

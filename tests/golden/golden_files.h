@@ -90,6 +90,12 @@ inline BvhxFile splitTriangle() {
     return {scene, AabbForm({std::move(nodes), std::vector<uint32_t>{1, 0, 1}}), {}, {}, {}};
 }
 
+/// A file with its tree in another form.
+inline BvhxFile inForm(BvhxFile file, std::string_view form) {
+    file.bvh = choose(forms(), "form", form).function(file.scene, decode(file.bvh), {});
+    return file;
+}
+
 inline std::vector<GoldenFile> goldenFiles() {
     return {{"two_triangles", twoTriangles(), {}},
             {"grid_none", grid(), {}},
@@ -98,6 +104,8 @@ inline std::vector<GoldenFile> goldenFiles() {
             {"grid_draco_zstd",
              grid(),
              {.codec = "zstd", .geometry = GeometryEncoding::draco, .dracoPositionBits = 8}},
+            {"two_triangles_ssh", inForm(twoTriangles(), "ssh"), {}},
+            {"grid_ssh_zstd", inForm(grid(), "ssh"), {.codec = "zstd"}},
             {"one_leaf", oneLeaf(), {}},
             {"split_triangle", splitTriangle(), {}}};
 }

@@ -19,7 +19,7 @@ namespace {
 void printRow(const test::TestScene& row, const Scene& scene, const Builder& builder,
               const Restructurer& restructurer) {
     const Bvh bvh = restructurer.function(scene, builder.function(scene, {}), {}).bvh;
-    const EncodedBvh encoded = AabbForm::encode(bvh);
+    const EncodedBvh encoded = AabbForm(bvh);
     const TreeStats tree = treeStats(bvh, {});
 
     const Tracer tracer(scene, encoded, TriangleSource::indexed);

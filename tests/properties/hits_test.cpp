@@ -15,11 +15,9 @@
 namespace bvhio {
 namespace {
 
-template <size_t I = 0, class Function>
-void forEachForm(const Bvh& bvh, const Function& function) {
-    using F = std::variant_alternative_t<I, EncodedBvh>;
-    function(std::string(F::kName), EncodedBvh(F::encode(bvh)));
-    if constexpr (I + 1 < std::variant_size_v<EncodedBvh>) forEachForm<I + 1>(bvh, function);
+template <class Function>
+void forEachForm(const Scene& scene, const Bvh& bvh, const Function& function) {
+    for (const FormChoice& form : forms()) function(std::string(form.name), form.function(scene, bvh, {}));
 }
 
 /// Rays, and the same again with limits around each one's hit.
@@ -89,7 +87,7 @@ TEST_P(HitsInScene, equalBruteForceForEveryBuilderAndForm) {
     for (const Builder& builder : builders())
         for (const uint32_t maxLeafSize : {1u, 4u, 13u})
             forEachForm(
-                builder.function(scene, {.costs = {}, .maxLeafSize = maxLeafSize}),
+                scene, builder.function(scene, {.costs = {}, .maxLeafSize = maxLeafSize}),
                 [&](const std::string& form, const EncodedBvh& bvh) {
                     for (const TriangleSource source : {TriangleSource::indexed, TriangleSource::blocks}) {
                         SCOPED_TRACE(testing::Message() << builder.name << " leaves of " << maxLeafSize << ' '

@@ -59,7 +59,7 @@ TEST(StatsProperties, epoIsFiniteAndAtMostWhatEveryNodeAroundEveryTriangleWouldC
 TEST(StatsProperties, aRearrangedTreeDiffersInOrderAlone) {
     forEveryTree([](const Scene& scene, const Bvh& bvh) {
         const Bvh shuffled = test::shuffledTree(bvh, 5);
-        const EncodedBvh a = AabbForm::encode(bvh), b = AabbForm::encode(shuffled);
+        const EncodedBvh a = AabbForm(bvh), b = AabbForm(shuffled);
         for (const Difference& difference : differences({scene, a}, {scene, b}))
             EXPECT_EQ(difference.aspect, Aspect::order) << difference.first;
         const double epoA = epo(scene, bvh, {}).value, epoB = epo(scene, shuffled, {}).value;
@@ -69,7 +69,7 @@ TEST(StatsProperties, aRearrangedTreeDiffersInOrderAlone) {
 
 TEST(StatsProperties, theReportIsTheSameForAnyNumberOfThreads) {
     forEveryTree([](const Scene& scene, const Bvh& bvh) {
-        const EncodedBvh encoded = AabbForm::encode(bvh);
+        const EncodedBvh encoded = AabbForm(bvh);
         for (const uint64_t exactUpTo : {uint64_t(0), ~uint64_t(0)}) {
             const StatsOptions options{.costs = {},
                                        .epo = EpoOptions{.exactUpTo = exactUpTo, .samples = 200}};

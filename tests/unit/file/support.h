@@ -61,7 +61,8 @@ inline void expectSameContent(const BvhxFile& a, const BvhxFile& b) {
     expectSameArray<TriangleIndices>(a.scene.triangles, b.scene.triangles, "triangles");
     expectSameArray<uint32_t>(a.scene.sourcePrimitives, b.scene.sourcePrimitives, "source primitives");
     EXPECT_EQ(a.scene.geometries, b.scene.geometries);
-    const auto &treeA = std::get<AabbForm>(a.bvh).bvh(), &treeB = std::get<AabbForm>(b.bvh).bvh();
+    EXPECT_EQ(formNameOf(a.bvh), formNameOf(b.bvh));
+    const Bvh treeA = decode(a.bvh), treeB = decode(b.bvh);
     expectSameArray<Node>(treeA.nodes, treeB.nodes, "nodes");
     expectSameArray<uint32_t>(treeA.primitives, treeB.primitives, "primitives");
     EXPECT_EQ(a.costs, b.costs);

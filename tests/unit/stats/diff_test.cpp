@@ -18,10 +18,10 @@ Scene makeScene() {
 struct Sample {
     Scene scene = makeScene();
     Bvh bvh = buildMedian(scene, {});
-    EncodedBvh encoded = AabbForm::encode(bvh);
+    EncodedBvh encoded = AabbForm(bvh);
 
     DiffSide side() const { return {scene, encoded}; }
-    Sample with(Bvh other) const { return {scene, other, AabbForm::encode(other)}; }
+    Sample with(Bvh other) const { return {scene, other, AabbForm(other)}; }
     template <class Edit>
     Sample edited(const Edit& edit) const {
         AlignedVector<Node> nodes(bvh.nodes.begin(), bvh.nodes.end());

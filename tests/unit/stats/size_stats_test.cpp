@@ -9,7 +9,7 @@ TEST(SizeStats, addsUpWhatLiesInMemory) {
     const Scene scene{
         std::vector<Vec3>(4), std::vector<TriangleIndices>(2), {{"", 0, 2}}, std::vector<uint32_t>(2)};
     const Bvh bvh{std::vector<Node>(4), std::vector<uint32_t>{0, 1, 0}};
-    const SizeStats stats = sizeStats(scene, AabbForm::encode(bvh));
+    const SizeStats stats = sizeStats(scene, AabbForm(bvh));
     EXPECT_EQ(stats.nodes, 4u * 32) << "the unused slot takes its bytes too";
     EXPECT_EQ(stats.primitives, 3u * 4);
     EXPECT_EQ(stats.geometry, 4u * 12 + 2 * 12 + 2 * 4);

@@ -12,7 +12,7 @@ namespace {
 TEST(StatsReport, hasTheKeysThatOthersRead) {
     const Scene scene = test::sceneOf(test::randomTriangles(100, 1, 0.2f));
     const Bvh bvh = buildMedian(scene, {});
-    const Report report = statsReport(scene, AabbForm::encode(bvh), {});
+    const Report report = statsReport(scene, AabbForm(bvh), {});
     for (const char* key : {"form",
                             "layout",
                             "primitives",
@@ -43,14 +43,14 @@ TEST(StatsReport, hasTheKeysThatOthersRead) {
 TEST(StatsReport, writesCostsAsTheyWereGiven) {
     // As a double, 1.2f is 1.2000000476837158.
     const Scene scene = test::sceneOf(test::randomTriangles(9, 1, 0.2f));
-    const Report report = statsReport(scene, AabbForm::encode(buildMedian(scene, {})), {});
+    const Report report = statsReport(scene, AabbForm(buildMedian(scene, {})), {});
     EXPECT_EQ(report["traversal_cost"].dump(), "1.2");
 }
 
 TEST(StatsReport, leavesOutEpoWhenTold) {
     const Scene scene = test::sceneOf(test::randomTriangles(9, 1, 0.2f));
     const Report report =
-        statsReport(scene, AabbForm::encode(buildMedian(scene, {})), {.costs = {}, .epo = std::nullopt});
+        statsReport(scene, AabbForm(buildMedian(scene, {})), {.costs = {}, .epo = std::nullopt});
     EXPECT_FALSE(report.contains("epo"));
     EXPECT_FALSE(report.contains("epo_exact"));
 }

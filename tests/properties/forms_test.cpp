@@ -1,0 +1,66 @@
+// Every form, over every builder's trees of awkward scenes: what it decodes to is a valid tree with the same
+// leaves, whose boxes hold the ones it was made from.
+#include "compress/forms.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "build/builders.h"
+#include "common/test_scenes.h"
+#include "core/validate.h"
+#include "stats/hashes.h"
+
+namespace bvhio {
+namespace {
+
+class FormsOfScene : public testing::TestWithParam<test::TestScene> {};
+
+/// The box of the leaf that each entry of the leaf order is in.
+std::vector<Aabb> leafBoxes(const Bvh& bvh) {
+    std::vector<Aabb> boxes(bvh.primitives.size(), Aabb::empty());
+    for (const Node& node : bvh.nodes)
+        for (uint32_t i = 0; i < node.primitiveCount; ++i) boxes[node.first + i] = node.bounds;
+    return boxes;
+}
+
+TEST_P(FormsOfScene, decodeToValidTreesThatHoldTheOriginal) {
+    const Scene scene = GetParam().make();
+    const PrimitiveBounds triangleBoxes = [&](std::span<const uint32_t> primitives, Aabb* out) {
+        for (const uint32_t primitive : primitives) *out++ = bounds(scene.triangle(primitive));
+    };
+    for (const Builder& builder : builders())
+        for (const uint32_t maxLeafSize : {1u, 4u, 13u}) {
+            const Bvh bvh = builder.function(scene, {.costs = {}, .maxLeafSize = maxLeafSize});
+            for (const FormChoice& form : forms()) {
+                SCOPED_TRACE(testing::Message()
+                             << builder.name << " leaves of " << maxLeafSize << ' ' << form.name);
+                const EncodedBvh encoded = form.function(scene, bvh, {});
+                EXPECT_EQ(formNameOf(encoded), form.name);
+                const Bvh decoded = decode(encoded);
+                for (const Finding& finding :
+                     validate(decoded, uint32_t(scene.triangles.size()), triangleBoxes).findings)
+                    ADD_FAILURE() << finding.message;
+                ASSERT_TRUE(decoded.nodes[0].bounds.contains(bvh.nodes[0].bounds));
+                ASSERT_TRUE(std::equal(bvh.primitives.begin(), bvh.primitives.end(),
+                                       decoded.primitives.begin(), decoded.primitives.end()));
+                const std::vector<Aabb> boxes = leafBoxes(bvh), decodedBoxes = leafBoxes(decoded);
+                for (size_t i = 0; i < boxes.size(); ++i)
+                    ASSERT_TRUE(decodedBoxes[i].contains(boxes[i])) << i;
+                if (decoded.nodes.size() == bvh.nodes.size()) {
+                    EXPECT_EQ(topologyHash(decoded), topologyHash(bvh));
+                }
+                // Once decoded, boxes do not grow further.
+                const EncodedBvh again = form.function(scene, decoded, {});
+                EXPECT_EQ(boundsHash(decode(again)), boundsHash(decoded));
+            }
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Awkward, FormsOfScene,
+                         testing::ValuesIn(test::testScenes().begin(), test::testScenes().end()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace bvhio

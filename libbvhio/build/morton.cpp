@@ -110,18 +110,6 @@ namespace {
 
 HWY_EXPORT(encodeSome);
 
-/// The union of what `boundsOf(begin, end)` gives for chunks of `count` items.
-template <class BoundsOf>
-Box boundsOfChunks(size_t count, const BoundsOf& boundsOf) {
-    constexpr size_t kGrain = 1 << 13;
-    std::vector<Box> chunks((count + kGrain - 1) / kGrain);
-    parallelChunks(count, kGrain,
-                   [&](size_t begin, size_t end) { chunks[begin / kGrain] = boundsOf(begin, end); });
-    Box bounds = Box::empty();
-    for (const Box& chunk : chunks) bounds.extend(chunk);
-    return bounds;
-}
-
 Box boundsOfVertices(const Scene& scene) {
     return boundsOfChunks(scene.vertices.size(), [&](size_t begin, size_t end) {
         Box bounds = Box::empty();

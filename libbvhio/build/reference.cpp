@@ -45,15 +45,9 @@ namespace {
 HWY_EXPORT(makeSome);
 
 Box makeAll(const Scene& scene, float scale, Reference* references) {
-    constexpr size_t kGrain = 1 << 13;
-    const size_t count = scene.triangles.size();
-    std::vector<Box> chunks((count + kGrain - 1) / kGrain);
-    parallelChunks(count, kGrain, [&](size_t begin, size_t end) {
-        chunks[begin / kGrain] = HWY_DYNAMIC_DISPATCH(makeSome)(scene, begin, end, scale, references);
+    return boundsOfChunks(scene.triangles.size(), [&](size_t begin, size_t end) {
+        return HWY_DYNAMIC_DISPATCH(makeSome)(scene, begin, end, scale, references);
     });
-    Box bounds = Box::empty();
-    for (const Box& chunk : chunks) bounds.extend(chunk);
-    return bounds;
 }
 
 }  // namespace

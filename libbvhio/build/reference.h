@@ -3,6 +3,7 @@
 
 #include "core/buffer.h"
 #include "core/bvh.h"
+#include "core/parallel.h"
 #include "scene/scene.h"
 
 namespace bvhio {
@@ -55,6 +56,18 @@ struct alignas(32) Reference {
     float centroid(int axis) const { return max[axis] - negatedMin[axis]; }
 };
 static_assert(sizeof(Reference) == sizeof(Box));
+
+/// The union of what `boundsOf(begin, end)` gives for chunks of `count` items.
+template <class BoundsOf>
+Box boundsOfChunks(size_t count, const BoundsOf& boundsOf) {
+    constexpr size_t kGrain = 1 << 13;
+    std::vector<Box> chunks((count + kGrain - 1) / kGrain);
+    parallelChunks(count, kGrain,
+                   [&](size_t begin, size_t end) { chunks[begin / kGrain] = boundsOf(begin, end); });
+    Box bounds = Box::empty();
+    for (const Box& chunk : chunks) bounds.extend(chunk);
+    return bounds;
+}
 
 /// The bounds of the doubled centroids of a run of references.
 Box centroidBounds(const Reference* references, size_t count);

@@ -14,8 +14,8 @@ float plane(const Aabb& box, uint32_t side) {
     return side < 3 ? box.min[int(side)] : box.max[int(side) - 3];
 }
 
-/// Moves the side of `inherited` to where `box` has it that
-/// leaves the least area, the first of equals, and returns it.
+/// Moves the side of `inherited` to where `box` has it that leaves the least area, the first of equals, and
+/// returns it.
 uint32_t carve(Aabb& inherited, const Aabb& box) {
     uint32_t best = 0;
     double least = std::numeric_limits<double>::infinity();

@@ -100,14 +100,14 @@ class SshForm {
     template <class Metrics>
     BVHIO_INLINE int step(const Entered<Cursor>& from, const SshRay& ray, float tLimit,
                           Entered<Cursor>* children, Metrics& metrics) const {
-        const uint32_t word = from.cursor.word;
-        const uint32_t left = word >> 5 << 1;
+        const SshNode node{0, from.cursor.word};
+        const uint32_t left = node.left();
         metrics.recordFetched(left * sizeof(SshNode), 2 * sizeof(SshNode));
         metrics.boxesTested(2, kBoxTestCost);
         const SshNode* pair = nodes_.data() + left;
         const float exit = from.cursor.exit < tLimit ? from.cursor.exit : tLimit;
         // The nearer child by the direction along the axis that separates them.
-        const uint32_t nearSide = ray.nearMask[word >> 3 & 3] + 1;  // 0 when the ray goes up the axis
+        const uint32_t nearSide = ray.nearMask[node.splitAxis()] + 1;  // 0 when the ray goes up the axis
         Entered<Cursor> nearer, farther;
         const bool entersNearer = clip(ray, pair[nearSide], from.enter, exit, nearer);
         const bool entersFarther = clip(ray, pair[nearSide ^ 1], from.enter, exit, farther);
@@ -121,7 +121,7 @@ class SshForm {
         return entersFarther;
     }
 
-    bool isLeaf(const Cursor& cursor) const { return (cursor.word >> 3 & 3) == SshNode::kLeaf; }
+    bool isLeaf(const Cursor& cursor) const { return SshNode{0, cursor.word}.isLeaf(); }
     PrimitiveRange primitiveRange(const Cursor& cursor) const {
         const SshNode node{0, cursor.word};
         return {node.firstPrimitive(), node.primitiveCount()};

@@ -45,7 +45,7 @@ class Reinsertion {
   public:
     explicit Reinsertion(TreeEditor& tree)
         : tree_(tree),
-          scale_(areaScale(tree[0].bounds)),
+          scale_(extentScale(tree[0].bounds)),
           candidates_(tree, scale_),
           moves_(tree, candidates_.flags()) {}
 

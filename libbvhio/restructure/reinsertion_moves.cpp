@@ -142,12 +142,8 @@ SubtreeMoves::Changed SubtreeMoves::above(uint32_t child, const Changed& below, 
 void SubtreeMoves::apply(uint32_t moved, uint32_t beside) {
     const uint32_t sibling = tree_.sibling(moved), parent = tree_.parent(moved);
     const Aabb rootBox = tree_[0].bounds;
-    tree_[parent] = tree_[sibling];
-    small_[parent] = small_[sibling];
-    tree_.adopt(parent);
-    tree_[sibling] = tree_[beside];
-    small_[sibling] = small_[beside];
-    tree_.adopt(sibling);
+    put(parent, content(sibling));
+    put(sibling, content(beside));
     tree_[beside].first = sibling & ~1u;
     tree_[beside].primitiveCount = 0;
     tree_.adopt(beside);

@@ -8,7 +8,7 @@
 namespace bvhio {
 
 /// The place beside a node, whose parent and the moved subtree's would be a new one; and by how much the sum
-/// of the inner nodes' areas would fall, scaled as areaScale says. No gain: the subtree stays.
+/// of the inner nodes' areas would fall, scaled as extentScale says. No gain: the subtree stays.
 struct Place {
     float gain = 0;
     uint32_t beside = 0;

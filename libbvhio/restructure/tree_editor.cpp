@@ -166,7 +166,7 @@ Restructured TreeEditor::finish(size_t workBytes) && {
     return {std::move(bvh), std::move(iterations_), double(bytes() + workBytes) / nodes, recordingSeconds_};
 }
 
-float areaScale(const Aabb& root) {
+float extentScale(const Aabb& root) {
     double extent = 0;
     for (int axis = 0; axis < 3; ++axis) extent = std::max(extent, double(root.max[axis]) - root.min[axis]);
     if (extent == 0) return 1;

@@ -62,6 +62,6 @@ class TreeEditor {
 };
 
 /// A power of two that brings the root's extent near 1, so that areas in float neither overflow nor vanish.
-float areaScale(const Aabb& root);
+float extentScale(const Aabb& root);
 
 }  // namespace bvhio

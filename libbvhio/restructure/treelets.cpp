@@ -24,7 +24,7 @@ class TreeletPass {
           planner_(method.planner),
           topPasses_(method.topPasses),
           size_(size),
-          scale_(areaScale(editor[0].bounds)),
+          scale_(extentScale(editor[0].bounds)),
           costs_{editor.options().costs.traversal, editor.options().costs.intersection,
                  editor.options().collapse ? float(editor.maxLeafSize()) : 0.0f},
           states_(editor.size()) {

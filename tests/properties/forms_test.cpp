@@ -10,6 +10,7 @@
 #include "build/builders.h"
 #include "common/test_scenes.h"
 #include "core/validate.h"
+#include "file/scene_chunks.h"
 #include "stats/hashes.h"
 
 namespace bvhio {
@@ -27,9 +28,6 @@ std::vector<Aabb> leafBoxes(const Bvh& bvh) {
 
 TEST_P(FormsOfScene, decodeToValidTreesThatHoldTheOriginal) {
     const Scene scene = GetParam().make();
-    const PrimitiveBounds triangleBoxes = [&](std::span<const uint32_t> primitives, Aabb* out) {
-        for (const uint32_t primitive : primitives) *out++ = bounds(scene.triangle(primitive));
-    };
     for (const Builder& builder : builders())
         for (const uint32_t maxLeafSize : {1u, 4u, 13u}) {
             const Bvh bvh = builder.function(scene, {.costs = {}, .maxLeafSize = maxLeafSize});
@@ -40,7 +38,7 @@ TEST_P(FormsOfScene, decodeToValidTreesThatHoldTheOriginal) {
                 EXPECT_EQ(formNameOf(encoded), form.name);
                 const Bvh decoded = decode(encoded);
                 for (const Finding& finding :
-                     validate(decoded, uint32_t(scene.triangles.size()), triangleBoxes).findings)
+                     validate(decoded, uint32_t(scene.triangles.size()), boundsOfTriangles(scene)).findings)
                     ADD_FAILURE() << finding.message;
                 ASSERT_TRUE(decoded.nodes[0].bounds.contains(bvh.nodes[0].bounds));
                 ASSERT_TRUE(std::equal(bvh.primitives.begin(), bvh.primitives.end(),

@@ -13,6 +13,7 @@
 #include "common/test_scenes.h"
 #include "core/parallel.h"
 #include "core/validate.h"
+#include "file/scene_chunks.h"
 
 namespace bvhio {
 namespace {
@@ -44,10 +45,8 @@ void expectBetter(const Scene& scene, const Bvh& before, const Bvh& after,
         EXPECT_EQ(after.nodes.size(), before.nodes.size());
         EXPECT_EQ(after.primitives.size(), before.primitives.size());
     }
-    const PrimitiveBounds boxes = [&](std::span<const uint32_t> primitives, Aabb* out) {
-        for (const uint32_t primitive : primitives) *out++ = bounds(scene.triangle(primitive));
-    };
-    for (const Finding& finding : validate(after, uint32_t(scene.triangles.size()), boxes).findings)
+    for (const Finding& finding :
+         validate(after, uint32_t(scene.triangles.size()), boundsOfTriangles(scene)).findings)
         ADD_FAILURE() << finding.message;
 }
 

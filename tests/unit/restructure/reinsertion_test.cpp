@@ -97,7 +97,7 @@ TEST(Reinsertion, findsTheBestPlaceOfAll) {
         const Scene scene = test::sceneOf(triangles);
         const Bvh bvh = badTree(scene, seed);
         const TreeEditor tree(scene, bvh, {});
-        const float scale = areaScale(tree[0].bounds);
+        const float scale = extentScale(tree[0].bounds);
         const double areas = Moved(tree, 0, 0).areas(), rootArea = halfArea(tree[0].bounds);
         for (uint32_t moved = 2; moved < tree.size(); ++moved) {
             Place place;

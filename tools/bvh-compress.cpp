@@ -31,8 +31,9 @@ ExitCode compress(CommandLine& line) {
 
     BvhxFile file = pass.read();
     pass.stages().begin("compress");
-    if (formNameOf(file.bvh) != form) {
-        file.bvh = choose(forms(), "form", form).function(file.scene, decode(file.bvh), {});
+    const EncodeOptions encoding;
+    if (formNameOf(file.bvh) != form || optionsOf(file.bvh) != encoding) {
+        file.bvh = choose(forms(), "form", form).function(file.scene, decode(file.bvh), encoding);
         dropChunksThatDoNotSurvive(file, Change::reordered);
     }
     WriteOptions options;

@@ -24,6 +24,7 @@ class AabbForm {
     Bvh decode() const { return bvh_; }
     const Bvh& bvh() const { return bvh_; }
     std::span<const uint32_t> primitives() const { return bvh_.primitives; }
+    EncodeOptions options() const { return {}; }
     size_t nodeBytes() const { return bvh_.nodes.size() * sizeof(Node); }
 
     using Ray = const PreparedRay&;

@@ -41,7 +41,9 @@ struct NoMetrics {
 };
 
 /// What forms can be told; each takes what concerns it.
-struct EncodeOptions {};
+struct EncodeOptions {
+    bool operator==(const EncodeOptions&) const = default;
+};
 
 /// A form stores a BVH, decodes it, and lets rays step through it as stored. Traversal (trace/traverse.h)
 /// owns the stack, the order and the culling; a form owns its Cursor (an index; an index and a decoded box;
@@ -65,6 +67,7 @@ concept Form = requires(const F form, const typename F::Cursor cursor, const typ
                         Entered<typename F::Cursor>* children, Entered<typename F::Cursor>& root,
                         NoMetrics metrics, const Scene scene, const Bvh bvh, const EncodeOptions options) {
     { F::encode(scene, bvh, options) } -> std::same_as<F>;
+    { form.options() } -> std::same_as<EncodeOptions>;  // that encode another tree alike
     { F::kName } -> std::convertible_to<std::string_view>;
     { F::kSummary } -> std::convertible_to<std::string_view>;
     { F::kMaxChildren } -> std::convertible_to<int>;

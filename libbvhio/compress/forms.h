@@ -36,6 +36,11 @@ inline std::string_view formNameOf(const EncodedBvh& bvh) {
     return std::visit([](const auto& form) { return form.kName; }, bvh);
 }
 
+/// What encodes another tree alike.
+inline EncodeOptions optionsOf(const EncodedBvh& bvh) {
+    return std::visit([](const auto& form) { return form.options(); }, bvh);
+}
+
 /// The canonical tree, boxes as the form reconstructs them.
 inline Bvh decode(const EncodedBvh& bvh) {
     return std::visit([](const auto& form) { return form.decode(); }, bvh);

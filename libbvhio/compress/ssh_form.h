@@ -81,6 +81,7 @@ class SshForm {
     const Aabb& bounds() const { return bounds_; }
     const SharedArray<SshNode>& nodes() const { return nodes_; }
     const SharedArray<uint32_t>& primitives() const { return primitives_; }
+    EncodeOptions options() const { return {}; }
     size_t nodeBytes() const { return nodes_.size() * sizeof(SshNode); }
 
     using Ray = SshRay;

@@ -102,7 +102,9 @@ void Tracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
     parallelChunks(rays.size(), kRaysPerTask, [&](size_t begin, size_t end) {
         const auto part = rays.subspan(begin, end - begin);
         const auto results = hits.subspan(begin, end - begin);
-        if (blocks_) return closestHitsInBlocks(bvh_, *blocks_, part, results);
+        if (blocks_)
+            return std::visit([&](const auto& form) { closestHitsInBlocks(form, *blocks_, part, results); },
+                              bvh_);
         traceAllIndexed<ClosestHit>(scene_, bvh_, part, results);
     });
 }
@@ -111,7 +113,9 @@ void Tracer::anyHits(std::span<const Ray> rays, std::span<uint8_t> occluded) con
     parallelChunks(rays.size(), kRaysPerTask, [&](size_t begin, size_t end) {
         const auto part = rays.subspan(begin, end - begin);
         const auto results = occluded.subspan(begin, end - begin);
-        if (blocks_) return anyHitsInBlocks(bvh_, *blocks_, part, results);
+        if (blocks_)
+            return std::visit([&](const auto& form) { anyHitsInBlocks(form, *blocks_, part, results); },
+                              bvh_);
         traceAllIndexed<AnyHit>(scene_, bvh_, part, results);
     });
 }

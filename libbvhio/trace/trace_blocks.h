@@ -7,9 +7,13 @@
 
 namespace bvhio {
 
-void closestHitsInBlocks(const EncodedBvh& bvh, const TriangleBlocks& blocks, std::span<const Ray> rays,
+/// Specialised for each form, in a file of its own (trace/blocks_aabb.cpp and so on): the loop is compiled
+/// for several processors, and forms that share nothing need not be compiled again together.
+template <class F>
+void closestHitsInBlocks(const F& form, const TriangleBlocks& blocks, std::span<const Ray> rays,
                          std::span<Hit> hits);
-void anyHitsInBlocks(const EncodedBvh& bvh, const TriangleBlocks& blocks, std::span<const Ray> rays,
+template <class F>
+void anyHitsInBlocks(const F& form, const TriangleBlocks& blocks, std::span<const Ray> rays,
                      std::span<uint8_t> occluded);
 
 }  // namespace bvhio

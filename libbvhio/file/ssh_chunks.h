@@ -1,0 +1,65 @@
+// How the ssh form is stored: format-spec/ssh.md.
+#pragma once
+
+#include <bit>
+
+#include "compress/ssh_form.h"
+#include "file/tree_chunks.h"
+
+namespace bvhio {
+
+template <>
+struct FormChunks<SshForm> {
+    static constexpr uint32_t kCode = chunkType("ssh ");
+    static constexpr size_t kFormSize = 64;
+
+    static TreeParameters parameters(const SshForm& form) {
+        return {kCode, form.nodes().size(), form.primitives().size(), {}, depthOf(form.decode())};
+    }
+    static void write(ContainerWriter& writer, const SshForm& form) {
+        ByteWriter bytes;
+        for (const Vec3& corner : {form.bounds().min, form.bounds().max})
+            for (int axis = 0; axis < 3; ++axis) bytes.f32(corner[axis]);
+        bytes.zeros(kFormSize - bytes.bytes().size());
+        writeChunk(writer, kFormType, bytes.bytes());
+        writeArrayChunk(writer, kNodesType, form.nodes());
+        writeArrayChunk(writer, kPrimitivesType, form.primitives());
+    }
+    static SshForm read(ChunkSequence& chunks, const TreeParameters& parameters, const Scene& scene) {
+        if (parameters.references > SshNode::kMaxReferences)
+            chunks.fail(FindingId::treeCounts, "an ssh tree has at most 2^25 references");
+        const Bytes payload = chunks.expect(kFormType, kFormSize);
+        ByteReader reader(payload, "chunk FORM");
+        Aabb bounds;
+        for (Vec3* corner : {&bounds.min, &bounds.max})
+            for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.f32();
+        if (!reader.skipZeros(reader.remaining()))
+            chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
+        SharedArray<SshNode> nodes = chunks.expectArray<SshNode>(kNodesType, parameters.nodeSlots);
+        for (size_t i = 0; i < nodes.size(); ++i) checkNode(chunks, nodes, i);
+        const uint64_t nodesOffset = chunks.payloadOffset();
+        SshForm form(bounds, std::move(nodes),
+                     chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references));
+        judgeTree(chunks, form.decode(), parameters, scene, nodesOffset, sizeof(SshNode));
+        return form;
+    }
+
+  private:
+    /// Whatever must hold before the tree can be decoded at all.
+    static void checkNode(const ChunkSequence& chunks, std::span<const SshNode> nodes, size_t i) {
+        const SshNode& node = nodes[i];
+        if (i == 1) {
+            if (std::bit_cast<uint64_t>(node) != 0)
+                chunks.fail(FindingId::unusedSlot, "the unused slot 1 beside the root is not zero");
+        } else if (node.side() > 5) {
+            chunks.fail(FindingId::nodeField,
+                        "node " + std::to_string(i) + " names side " + std::to_string(node.side()));
+        } else if (!node.isLeaf() && (node.left() <= i || node.left() >= nodes.size())) {
+            chunks.fail(FindingId::childIndex,
+                        "node " + std::to_string(i) + " has its children at " + std::to_string(node.left()) +
+                            ": not behind it and below " + std::to_string(nodes.size()));
+        }
+    }
+};
+
+}  // namespace bvhio

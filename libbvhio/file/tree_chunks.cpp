@@ -1,0 +1,38 @@
+#include "file/tree_chunks.h"
+
+#include <algorithm>
+
+#include "core/validate.h"
+#include "file/scene_chunks.h"
+
+namespace bvhio {
+
+uint32_t depthOf(const Bvh& bvh) {
+    std::vector<uint8_t> depths(bvh.nodes.size() / 2);
+    uint8_t deepest = 0;
+    for (size_t i = 0; i < bvh.nodes.size(); ++i) {
+        const Node& node = bvh.nodes[i];
+        if (i == 1 || node.isLeaf()) continue;
+        const auto depth = uint8_t(depths[i / 2] + 1);
+        depths[node.left() / 2] = depth;
+        deepest = std::max(deepest, depth);
+    }
+    return deepest;
+}
+
+void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
+               uint64_t nodesOffset, size_t nodeSize) {
+    Validation validation =
+        validate(bvh, uint32_t(scene.triangles.size()),
+                 chunks.sound() ? boundsOfTriangles(scene) : PrimitiveBounds{}, chunks.maxPerId());
+    for (Finding& finding : validation.findings) {
+        finding.chunk = "NODE";
+        if (finding.node != kNowhere) finding.offset = finding.node * nodeSize;
+    }
+    if (validation.findings.empty() && validation.depth != parameters.depth)
+        chunks.fail(FindingId::statedDepth, "the tree has depth " + std::to_string(validation.depth) +
+                                                ", TREE states " + std::to_string(parameters.depth));
+    chunks.judge(std::move(validation.findings), nodesOffset);
+}
+
+}  // namespace bvhio

@@ -1,0 +1,34 @@
+// What the chunks of every form share (format-spec/chunks.md 7), and what a form adds: a specialisation of
+// FormChunks in a file of its own, included by file/form_chunks.cpp.
+#pragma once
+
+#include "core/bytes.h"
+#include "file/chunks.h"
+
+namespace bvhio {
+
+/// What every form's tree has.
+struct TreeParameters {
+    uint32_t form = 0;
+    uint64_t nodeSlots = 0, references = 0;
+    SahCosts costs;
+    uint32_t depth = 0;
+};
+
+/// Edges from the root to the deepest leaf of a valid tree.
+uint32_t depthOf(const Bvh& bvh);
+
+/// Checks a tree that was read, boxes as its form reconstructs them, against every rule of core/bvh.h. Its
+/// nodes are records of `nodeSize` bytes from `nodesOffset` on.
+void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
+               uint64_t nodesOffset, size_t nodeSize);
+
+/// How one form is stored: specialised for each, with
+/// - kCode: TREE's form field,
+/// - parameters(form): what TREE says, but for the costs,
+/// - write(writer, form): the chunks behind TREE,
+/// - read(chunks, parameters, scene): reads those; throws FindingError unless the tree is valid.
+template <class F>
+struct FormChunks;
+
+}  // namespace bvhio

@@ -1,10 +1,13 @@
-// bvh-build: from a scene to a container.
+// bvh-build: from a scene to a container; or from a container's tree to the same tree over a moved scene.
 #include "build/builders.h"
 #include "build/spatial.h"
 #include "common/input.h"
+#include "common/log.h"
 #include "common/pass.h"
 #include "common/run_tool.h"
+#include "file/form_chunks.h"
 #include "scene/import.h"
+#include "scene/moved_scene.h"
 
 using namespace bvhio;
 
@@ -14,7 +17,8 @@ const ToolInfo kTool = {
     "bvh-build",
     "Builds a BVH over the triangles of a scene: glTF, GLB, OBJ, PLY, STL or Draco.",
     "  bvh-build scene.glb -o scene.bvhx\n"
-    "  bvh-build scene.ply --builder median | bvh-stats\n",
+    "  bvh-build scene.ply --builder median | bvh-stats\n"
+    "  bvh-build moved.glb --refit scene.bvhx -o moved.bvhx\n",
 };
 
 const std::vector<NamedValue> kOnDegenerate = {
@@ -27,6 +31,10 @@ OnDegenerate onDegenerate(std::string_view name) {
     return name == "drop" ? OnDegenerate::drop : name == "error" ? OnDegenerate::error : OnDegenerate::keep;
 }
 
+Error withName(const std::string& input, const Error& error) {
+    return {error.kind(), (input == "-" ? "standard input" : input) + ": " + error.what()};
+}
+
 Scene import(const std::string& input, const ImportOptions& options) {
     const std::string name = input == "-" ? "standard input" : input;
     const ImportedScene imported =
@@ -34,8 +42,33 @@ Scene import(const std::string& input, const ImportOptions& options) {
     try {
         return flatten(imported, options);
     } catch (const Error& error) {
-        throw Error(error.kind(), name + ": " + error.what());  // meshes don't know their file
+        throw withName(input, error);  // meshes don't know their file
     }
+}
+
+/// The tree of the container `old`, in its form, fitted to the scene, which must be the same mesh.
+void refit(Pass& pass, const std::string& old) {
+    BvhxFile file = pass.read(old);
+    pass.stages().begin("import");
+    const Scene scene = import(pass.input(), {});
+    pass.stages().begin("refit");
+    try {
+        file.scene = movedScene(file.scene, scene);
+    } catch (const Error& error) {
+        throw withName(pass.input(), error);
+    }
+    const size_t references = decode(file.bvh).primitives.size();
+    if (references > file.scene.triangles.size())
+        logInfo(
+            "boxes of triangles that spatial splits cut grow to whole triangles: build anew for tight ones");
+    file.bvh = refitTo(file.bvh, file.scene);
+    dropChunksThatDoNotSurvive(file, Change::topologyChanged);
+    dropChunksThatDoNotSurvive(file, Change::reordered);
+    pass.recordOptions({{"refit", true}});
+    pass.finish(file, {}, "refit",
+                {{"form", formNameOf(file.bvh)},
+                 {"primitives", file.scene.triangles.size()},
+                 {"references", references}});
 }
 
 ExitCode build(CommandLine& line) {
@@ -50,7 +83,21 @@ ExitCode build(CommandLine& line) {
     line.number("--intersection-cost", options.costs.intersection, 0, 1e6f,
                 "SAH cost of a ray-triangle test");
     line.choice("--on-degenerate", degenerate, kOnDegenerate, "what to do with triangles of zero area");
+    line.beginPlumbing();
+    std::string old;
+    line.text("--refit", "OLD.bvhx", old, "build nothing: fit this file's tree to SCENE, its mesh moved");
     Pass pass(line, "SCENE", "the scene's file; - or nothing: standard input");
+    if (!old.empty()) {
+        if (!line.given().empty())
+            throw Error(
+                ErrorKind::usage,
+                line.given()[0] + ": --refit keeps the tree that OLD.bvhx has: leave one of them out");
+        if (old == "-" && pass.input() == "-")
+            throw Error(ErrorKind::usage, "--refit: standard input is SCENE already: name a file");
+        refuseTerminalInput(old);
+        refit(pass, old);
+        return ExitCode::done;
+    }
 
     pass.stages().begin("import");
     Scene scene = import(pass.input(), {onDegenerate(degenerate)});

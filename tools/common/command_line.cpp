@@ -45,6 +45,7 @@ struct CommandLine::Parser {
     struct Recorded {
         std::string name;
         std::function<Report()> value;
+        const CLI::Option* option;
     };
 
     CLI::App app;
@@ -59,7 +60,7 @@ struct CommandLine::Parser {
              std::function<void(const std::string&)> set, std::function<Report()> get) {
         CLI::Option* option = app.add_option_function<std::string>(names, std::move(set), help);
         option->type_name(valueName)->group(group)->take_last();
-        if (recording) recorded.push_back({option->get_single_name(), std::move(get)});
+        if (recording) recorded.push_back({option->get_single_name(), std::move(get), option});
     }
 
     template <class T>
@@ -189,14 +190,14 @@ void CommandLine::flag(const std::string& names, bool& value, const std::string&
         names, [&value] { value = true; }, help);
     option->group(parser_->group);
     if (parser_->recording)
-        parser_->recorded.push_back({option->get_single_name(), [&value] { return Report(value); }});
+        parser_->recorded.push_back({option->get_single_name(), [&value] { return Report(value); }, option});
 }
 
 void CommandLine::toggle(const std::string& name, bool& value, const std::string& help) {
     CLI::Option* option =
         parser_->app.add_flag("--" + name + ",!--no-" + name, value, withDefault(help, value ? "on" : "off"));
     option->group(parser_->group)->take_last();
-    if (parser_->recording) parser_->recorded.push_back({name, [&value] { return Report(value); }});
+    if (parser_->recording) parser_->recorded.push_back({name, [&value] { return Report(value); }, option});
 }
 
 void CommandLine::choice(const std::string& names, std::string& value, const std::vector<NamedValue>& values,
@@ -262,6 +263,13 @@ void CommandLine::parse() {
                                                  : ProgressMode::automatic;
     const uint32_t machine = std::max(1u, std::thread::hardware_concurrency());
     parser_->threadLimit = std::make_unique<ThreadLimit>(std::min(threads == 0 ? machine : threads, machine));
+}
+
+std::vector<std::string> CommandLine::given() const {
+    std::vector<std::string> names;
+    for (const auto& option : parser_->recorded)
+        if (option.option->count() > 0) names.push_back("--" + option.name);
+    return names;
 }
 
 Report CommandLine::options() const {

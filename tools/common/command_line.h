@@ -75,6 +75,8 @@ class CommandLine {
     /// The options declared before beginPlumbing() with their values, defaults included. For parse() to have
     /// run.
     Report options() const;
+    /// Those of them that the command line has, as "--bins". For parse() to have run.
+    std::vector<std::string> given() const;
     ProgressMode progressMode() const { return progressMode_; }
 
   private:

@@ -22,16 +22,17 @@ Pass::Pass(CommandLine& line, const std::string& inputName, const std::string& i
     stages_.emplace(line.tool(), line.progressMode());
 }
 
-BvhxFile Pass::read() {
+BvhxFile Pass::read(const std::string& path) {
     stages_->begin("read");
-    BvhxFile file = readBvhx(input_);
+    BvhxFile file = readBvhx(path);
     sahBefore_ = sahCost(file.bvh, file.costs);
     return file;
 }
 
 void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string& work, const Report& extra) {
     stages_->begin("write");
-    file.provenance.push_back({line_.tool(), std::string(toolsVersion()), jsonText(line_.options())});
+    const Report recorded = options_ ? *options_ : line_.options();
+    file.provenance.push_back({line_.tool(), std::string(toolsVersion()), jsonText(recorded)});
     const std::optional<EncodedBvh> refitted = writeBvhx(output_->stream(), file, options);
     output_->commit();
     stages_->end();
@@ -46,7 +47,7 @@ void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string
     for (const auto& [stage, seconds] : stages_->stages()) report["stage_seconds"][stage] = seconds;
     report["threads"] = threadCount();
     report["peak_bytes"] = peakBytes();
-    report["options"] = line_.options();
+    report["options"] = recorded;
     report.update(extra);
     report_->stream() << jsonText(report, 2) << '\n';
     report_->commit();

@@ -22,8 +22,11 @@ class Pass {
     /// Whether a report is wanted.
     bool reports() const { return report_.has_value(); }
     ProgressBar& stages() { return *stages_; }
-    /// Reads the container and notes its cost, the report's sah_before.
-    BvhxFile read();
+    /// Reads the container that is INPUT, or another, and notes its cost, the report's sah_before.
+    BvhxFile read() { return read(input_); }
+    BvhxFile read(const std::string& path);
+    /// What provenance and report say instead of the command line's options, where not all had a part.
+    void recordOptions(const Report& options) { options_ = options; }
     /// Adds the tool's provenance, writes the container and then the report. `work` names the stage whose
     /// time is the report's `seconds`; `extra` joins the report.
     void finish(BvhxFile& file, const WriteOptions& options, const std::string& work,
@@ -35,6 +38,7 @@ class Pass {
     std::optional<ProgressBar> stages_;
     std::optional<Output> output_, report_;
     std::optional<double> sahBefore_;
+    std::optional<Report> options_;
 };
 
 /// The cost of the tree as its form stores it.

@@ -7,6 +7,7 @@
 #include "file/check.h"
 #include "file/chunks.h"
 #include "stats/diff.h"
+#include "stats/slack.h"
 #include "stats/stats_report.h"
 
 using namespace bvhio;
@@ -120,11 +121,12 @@ Report summary(const BvhxFile& file, const Input& input, bool withEpo) {
 }
 
 ExitCode stats(CommandLine& line) {
-    bool check = false, chunks = false, provenance = false, noEpo = false;
+    bool check = false, chunks = false, provenance = false, levels = false, noEpo = false;
     std::string other;
     line.flag("--check", check, "check the file; print numbered findings, exit 7 when one is an error");
     line.flag("--chunks", chunks, "list the file's chunks");
     line.flag("--provenance", provenance, "list the tools that made the file");
+    line.flag("--levels", levels, "tell, level by level, how much larger boxes are than exact ones");
     line.text("--diff", "OTHER", other, "tell what sets the files apart; exit 7 when anything does");
     line.flag("--no-epo", noEpo, "leave out epo, which takes longest");
     QueryTool query(line);
@@ -146,10 +148,11 @@ ExitCode stats(CommandLine& line) {
         if (!check) stop = list.stop;
     }
     bool different = false;
-    const bool summaryAlone = asked.empty() && !provenance && other.empty();
-    if (!broken && !stop && (query.isJson() || summaryAlone || provenance || !other.empty())) {
+    const bool summaryAlone = asked.empty() && !provenance && !levels && other.empty();
+    if (!broken && !stop && (query.isJson() || summaryAlone || provenance || levels || !other.empty())) {
         const BvhxFile file = input.read();
         if (provenance) asked["provenance"] = provenanceReport(file);
+        if (levels) addTo(asked, slackStats(file.scene, decode(file.bvh), file.costs));
         if (!other.empty()) {
             const BvhxFile second = query.readOther("--diff", other);
             asked["diff"] =
@@ -159,6 +162,7 @@ ExitCode stats(CommandLine& line) {
         query.stages().begin("measure");
         if (query.isJson() || summaryAlone) {
             Report report = summary(file, input, !noEpo);
+            if (!query.isJson()) report["slack"].erase("levels");  // --levels prints them
             report.update(asked);
             asked = std::move(report);
         }

@@ -5,6 +5,7 @@
 
 #include "stats/hashes.h"
 #include "stats/size_stats.h"
+#include "stats/slack.h"
 #include "stats/tree_stats.h"
 
 namespace bvhio {
@@ -22,6 +23,7 @@ Report statsReport(const Scene& scene, const EncodedBvh& encoded, const StatsOpt
     report["layout"] = layoutName(bvh);
     report["primitives"] = scene.triangles.size();
     addTo(report, treeStats(bvh, options.costs));
+    addTo(report, slackStats(scene, bvh, options.costs));
     if (options.epo) {
         const Epo overlap = epo(scene, bvh, options.costs, *options.epo);
         report["epo"] = overlap.value;

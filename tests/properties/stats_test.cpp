@@ -6,6 +6,7 @@
 #include "common/test_scenes.h"
 #include "core/parallel.h"
 #include "stats/diff.h"
+#include "stats/slack.h"
 #include "stats/stats_report.h"
 #include "stats/tree_stats.h"
 
@@ -80,6 +81,23 @@ TEST(StatsProperties, theReportIsTheSameForAnyNumberOfThreads) {
             }
             const ThreadLimit limit(4);
             EXPECT_EQ(statsReport(scene, encoded, options).dump(), one);
+        }
+    });
+}
+
+TEST(StatsProperties, noBoxIsSmallerThanTheExactOne) {
+    forEveryTree([](const Scene& scene, const Bvh& bvh) {
+        for (const FormChoice& form : forms()) {
+            SCOPED_TRACE(form.name);
+            const SlackStats stats = slackStats(scene, decode(form.function(scene, bvh, {})), {});
+            EXPECT_GE(stats.all.area, stats.all.exactArea);
+            uint64_t nodes = 0;
+            for (const Slack& level : stats.levels) {
+                EXPECT_GE(level.mean(), 1);
+                EXPECT_GE(level.max, level.mean() * (1 - 1e-12));
+                nodes += level.nodes;
+            }
+            EXPECT_EQ(nodes, stats.all.nodes);
         }
     });
 }

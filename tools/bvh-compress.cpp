@@ -1,6 +1,7 @@
 // bvh-compress: chooses how a container's tree is stored, and squeezes its chunks.
 #include "common/pass.h"
 #include "common/run_tool.h"
+#include "compress/exact_boxes.h"
 #include "file/codecs.h"
 
 using namespace bvhio;
@@ -19,6 +20,14 @@ const std::vector<NamedValue> kGeometries = {
     {"draco", "vertices rounded to a grid; boxes follow, and triangles keep their ids"},
 };
 
+/// What `form` is made from: boxes as the file's form has them for aabb, which decodes; else exact ones, so
+/// that they do not grow from one compact form to the next.
+Bvh treeFor(std::string_view form, const BvhxFile& file) {
+    const Bvh bvh = decode(file.bvh);
+    const bool isCompact = !std::holds_alternative<AabbForm>(file.bvh);
+    return isCompact && form != AabbForm::kName ? withExactBoxes(file.scene, bvh) : bvh;
+}
+
 ExitCode compress(CommandLine& line) {
     std::string form(forms()[0].name), codec = "zstd", geometry(kGeometries[0].name);
     uint32_t level = 0, positionBits = 16;
@@ -33,7 +42,7 @@ ExitCode compress(CommandLine& line) {
     pass.stages().begin("compress");
     const EncodeOptions encoding;
     if (formNameOf(file.bvh) != form || optionsOf(file.bvh) != encoding) {
-        file.bvh = choose(forms(), "form", form).function(file.scene, decode(file.bvh), encoding);
+        file.bvh = choose(forms(), "form", form).function(file.scene, treeFor(form, file), encoding);
         dropChunksThatDoNotSurvive(file, Change::reordered);
     }
     WriteOptions options;

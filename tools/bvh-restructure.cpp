@@ -1,6 +1,7 @@
 // bvh-restructure: lowers a tree's cost by changing which nodes it has.
 #include "common/pass.h"
 #include "common/run_tool.h"
+#include "compress/exact_boxes.h"
 #include "restructure/restructurers.h"
 
 using namespace bvhio;
@@ -44,8 +45,11 @@ ExitCode restructure(CommandLine& line) {
     options.recordCosts = pass.reports();
     options.progress = &pass.stages().progress();
     const auto& chosen = choose(restructurers(), "method", method);
+    // Costs are judged by the boxes that the tree is about, not by those that a compact form made of them.
+    Bvh bvh = decode(file.bvh);
+    if (!std::holds_alternative<AabbForm>(file.bvh)) bvh = withExactBoxes(file.scene, bvh);
     const double start = pass.stages().elapsed();
-    Restructured result = chosen.function(file.scene, decode(file.bvh), options);
+    Restructured result = chosen.function(file.scene, bvh, options);
     const double seconds = pass.stages().elapsed() - start - result.recordingSeconds;
     file.bvh = AabbForm(std::move(result.bvh));
     dropChunksThatDoNotSurvive(file, Change::topologyChanged);

@@ -35,9 +35,10 @@ Bvh exactTreeOfParts(const Scene& scene, const Bvh& bvh) {
                             boxOfParts(scene, bvh, node));
         }
     });
-    return refit({bvh.nodes, std::move(references)}, [&](std::span<const uint32_t> range, Aabb* boxes) {
+    const auto boxOf = [&](std::span<const uint32_t> range, Aabb* boxes) {
         for (size_t i = 0; i < range.size(); ++i) boxes[i] = leafBoxes[range[i]];
-    });
+    };
+    return {refit({bvh.nodes, std::move(references)}, boxOf).nodes, bvh.primitives};
 }
 
 }  // namespace

@@ -7,12 +7,19 @@ for form in $(bvh-compress --help | sed -n '/--form/,/--codec/s/^ \{36\}\([a-z0-
     bvh-build moved.obj --refit old.bvhx -o refitted.bvhx --report report.json
     bvh-stats refitted.bvhx --check
     bvh-trace refitted.bvhx --rays random --count 3000 --compare anew.bvhx >/dev/null || echo "$form: other hits"
-    keys report.json sah_before sah_after seconds threads peak_bytes options form
     bvh-stats old.bvhx --no-epo --format json >old.json
     bvh-stats refitted.bvhx --no-epo --format json >refitted.json
-    [ "$(json form topology_hash <old.json)" = "$(json form topology_hash <refitted.json)" ] || echo "$form: another tree"
-    [ "$(json sah_before <report.json | cut -d ' ' -f 2)" = "$(json sah_cost <old.json | cut -d ' ' -f 2)" ] || echo "$form: sah_before"
-    [ "$(json sah_after <report.json | cut -d ' ' -f 2)" = "$(json sah_cost <refitted.json | cut -d ' ' -f 2)" ] || echo "$form: sah_after"
+    python3 - "$form" <<'PYTHON'
+import json, sys
+report, old, refitted = (json.load(open(name + ".json")) for name in ("report", "old", "refitted"))
+for key, left, right in (("form", old["form"], refitted["form"]), ("topology", old["topology_hash"], refitted["topology_hash"]),
+                         ("sah_before", report["sah_before"], old["sah_cost"]), ("sah_after", report["sah_after"], refitted["sah_cost"])):
+    if left != right:
+        print(f"{sys.argv[1]}: {key}: {left} and {right}")
+for key in ("seconds", "threads", "peak_bytes", "options"):
+    if key not in report:
+        print(f"{sys.argv[1]}: no {key}")
+PYTHON
 done
 # The history goes on.
 json provenance <refitted.json | python3 -c '

@@ -33,6 +33,7 @@ run() { # TOOLS THREADS OUTPUT
         done
         for form in "${forms[@]}"; do
             for codec in "${codecs[@]}"; do
+                [ "$codec" != topology ] || [ "$form" = aabb ] || continue # only its boxes can be fitted again
                 "$tools/bvh-compress" "$name.${builders[0]}.bvhx" --form "$form" --codec "$codec" --geometry raw \
                     -j "$threads" -o "$name.$form.$codec.bvhx"
             done

@@ -49,6 +49,7 @@ enum class FindingId : uint32_t {
     provenance = 2013,
     text = 2014,
     draco = 2015,
+    topology = 2016,
 
     unusedSlot = 3001,
     childIndex = 3002,

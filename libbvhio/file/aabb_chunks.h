@@ -1,7 +1,9 @@
-// How the aabb form is stored: format-spec/aabb.md.
+// How the aabb form is stored: format-spec/aabb.md, or topology.md.
 #pragma once
 
 #include "compress/aabb_form.h"
+#include "file/scene_chunks.h"
+#include "file/topology.h"
 #include "file/tree_chunks.h"
 
 namespace bvhio {
@@ -17,13 +19,32 @@ struct FormChunks<AabbForm> {
         writeArrayChunk(writer, kNodesType, form.bvh().nodes);
         writeArrayChunk(writer, kPrimitivesType, form.bvh().primitives);
     }
+    /// Without boxes, which come back from the scene's triangles.
+    static void writeTopology(ContainerWriter& writer, const AabbForm& form, const Scene& scene) {
+        writeArrayChunk(writer, kPrimitivesType, form.bvh().primitives);
+        writeChunk(writer, kTopologyType, topologyPayload(form.bvh(), boundsOfTriangles(scene)));
+    }
     static AabbForm read(ChunkSequence& chunks, const TreeParameters& parameters, const Scene& scene) {
+        if (chunks.nextIs(kPrimitivesType)) return AabbForm(readWithoutBoxes(chunks, parameters, scene));
         Bvh bvh;
         bvh.nodes = chunks.expectArray<Node>(kNodesType, parameters.nodeSlots);
         const uint64_t nodesOffset = chunks.payloadOffset();
         bvh.primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
         judgeTree(chunks, bvh, parameters, scene, nodesOffset, sizeof(Node));
         return AabbForm(std::move(bvh));
+    }
+
+  private:
+    static Bvh readWithoutBoxes(ChunkSequence& chunks, const TreeParameters& parameters, const Scene& scene) {
+        const auto primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
+        for (const uint32_t primitive : primitives)
+            if (primitive >= scene.triangles.size())
+                chunks.fail(FindingId::primitiveIndex, "an entry is " + std::to_string(primitive) + " of " +
+                                                           std::to_string(scene.triangles.size()) +
+                                                           " triangles");
+        Bvh bvh = readTopology(chunks, parameters, primitives, scene);
+        judgeTree(chunks, bvh, parameters, scene, chunks.payloadOffset(), 0, kTopologyType);
+        return bvh;
     }
 };
 

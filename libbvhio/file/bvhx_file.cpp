@@ -78,7 +78,7 @@ std::optional<EncodedBvh> writeBvhx(std::ostream& out, const BvhxFile& file, con
     writeScene(writer, stored);
     std::optional<EncodedBvh> refitted;
     if (!stored.draco.empty()) refitted = refitTo(file.bvh, stored.scene);
-    writeTree(writer, refitted ? *refitted : file.bvh, file.costs);
+    writeTree(writer, refitted ? *refitted : file.bvh, file.costs, stored.scene, options.nodes);
     for (const UnknownChunk& chunk : file.unknownChunks) writer.write(chunk.type, chunk.flags, chunk.payload);
     if (!file.provenance.empty()) writeProvenance(writer, file.provenance);
     writer.finish();

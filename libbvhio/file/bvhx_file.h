@@ -38,10 +38,13 @@ struct BvhxFile {
 };
 
 enum class GeometryEncoding { raw, draco };
+/// Nodes as the form has them, or their topology alone: reading it back fits the same boxes to the triangles.
+enum class NodeEncoding { plain, topology };
 
 struct WriteOptions {
     std::string codec = "none";  // a row of codecs()
     int codecLevel = 0;          // 0 = the codec's default
+    NodeEncoding nodes = NodeEncoding::plain;
     GeometryEncoding geometry = GeometryEncoding::raw;
     int dracoPositionBits = 16;
 };
@@ -55,8 +58,9 @@ BvhxFile readBvhx(const std::filesystem::path& path);
 /// Reads from memory, copying what it keeps.
 BvhxFile readBvhx(std::span<const std::byte> bytes, const std::string& name);
 
-/// Writes in one pass to a stream that need not be seekable. Returns the tree as written where that is not
-/// file.bvh: refitted to geometry that was stored with losses.
+/// Writes in one pass to a stream that need not be seekable. Throws Error{usage} where nodes of the tree's
+/// form can't be stored as options.nodes says. Returns the tree as written where that is not file.bvh:
+/// refitted to geometry that was stored with losses.
 std::optional<EncodedBvh> writeBvhx(std::ostream& out, const BvhxFile& file, const WriteOptions& options);
 
 /// What a pass did to a tree.

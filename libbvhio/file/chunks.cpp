@@ -17,6 +17,7 @@ std::span<const ChunkKind> chunkKinds() {
         {kFormType, kCritical, "form parameters"},
         {kNodesType, kCritical, "nodes"},
         {kPrimitivesType, kCritical, "primitives"},
+        {kTopologyType, kCritical, "topology"},
         {kProvenanceType, kSurvivesReorder | kSurvivesTopologyChange, "provenance"},
         {kEndType, kCritical, "end"},
     };

@@ -20,6 +20,7 @@ inline constexpr uint32_t kTreeType = chunkType("TREE");
 inline constexpr uint32_t kFormType = chunkType("FORM");
 inline constexpr uint32_t kNodesType = chunkType("NODE");
 inline constexpr uint32_t kPrimitivesType = chunkType("PRIM");
+inline constexpr uint32_t kTopologyType = chunkType("TOPO");
 
 /// A row of the table of known chunks.
 struct ChunkKind {

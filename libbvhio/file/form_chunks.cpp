@@ -53,7 +53,8 @@ EncodedBvh readForm(ChunkSequence& chunks, const TreeParameters& parameters, con
 
 }  // namespace
 
-void writeTree(ContainerWriter& writer, const EncodedBvh& bvh, const SahCosts& costs) {
+void writeTree(ContainerWriter& writer, const EncodedBvh& bvh, const SahCosts& costs, const Scene& scene,
+               NodeEncoding encoding) {
     std::visit(
         [&](const auto& form) {
             using Chunks = FormChunks<std::decay_t<decltype(form)>>;
@@ -68,7 +69,15 @@ void writeTree(ContainerWriter& writer, const EncodedBvh& bvh, const SahCosts& c
             bytes.u32(p.depth);
             bytes.zeros(kTreeSize - bytes.bytes().size());
             writeChunk(writer, kTreeType, bytes.bytes());
-            Chunks::write(writer, form);
+            if (encoding == NodeEncoding::plain) {
+                Chunks::write(writer, form);
+            } else if constexpr (requires { Chunks::writeTopology(writer, form, scene); }) {
+                Chunks::writeTopology(writer, form, scene);
+            } else {
+                throw Error(ErrorKind::usage,
+                            "the " + std::string(form.kName) +
+                                " form can't be stored as topology: use form aabb or codec zstd");
+            }
         },
         bvh);
 }

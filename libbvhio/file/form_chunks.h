@@ -5,7 +5,9 @@
 
 namespace bvhio {
 
-void writeTree(ContainerWriter& writer, const EncodedBvh& bvh, const SahCosts& costs);
+/// `scene` is the one that a reader will see.
+void writeTree(ContainerWriter& writer, const EncodedBvh& bvh, const SahCosts& costs, const Scene& scene,
+               NodeEncoding encoding);
 
 /// The tree with its boxes fitted to the scene's vertices, which moved.
 EncodedBvh refitTo(const EncodedBvh& bvh, const Scene& scene);

@@ -21,12 +21,12 @@ uint32_t depthOf(const Bvh& bvh) {
 }
 
 void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
-               uint64_t nodesOffset, size_t nodeSize) {
+               uint64_t nodesOffset, size_t nodeSize, uint32_t chunk) {
     Validation validation =
         validate(bvh, uint32_t(scene.triangles.size()),
                  chunks.sound() ? boundsOfTriangles(scene) : PrimitiveBounds{}, chunks.maxPerId());
     for (Finding& finding : validation.findings) {
-        finding.chunk = "NODE";
+        finding.chunk = chunkTypeName(chunk);
         if (finding.node != kNowhere) finding.offset = finding.node * nodeSize;
     }
     if (validation.findings.empty() && validation.depth != parameters.depth)

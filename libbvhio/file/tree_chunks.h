@@ -19,9 +19,9 @@ struct TreeParameters {
 uint32_t depthOf(const Bvh& bvh);
 
 /// Checks a tree that was read, boxes as its form reconstructs them, against every rule of core/bvh.h. Its
-/// nodes are records of `nodeSize` bytes from `nodesOffset` on.
+/// nodes are records of `nodeSize` bytes from `nodesOffset` on, in a chunk of this type.
 void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
-               uint64_t nodesOffset, size_t nodeSize);
+               uint64_t nodesOffset, size_t nodeSize, uint32_t chunk = kNodesType);
 
 /// How one form is stored: specialised for each, with
 /// - kCode: TREE's form field,

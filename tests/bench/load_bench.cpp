@@ -48,11 +48,13 @@ struct Stored {
     Samples samples;
 };
 
-Stored store(const fs::path& folder, const BvhxFile& content, const std::string& codec) {
-    Stored stored{codec, folder / (codec + ".bvhx"), {}};
+Stored store(const fs::path& folder, const BvhxFile& content, const std::string& codec, NodeEncoding nodes) {
+    const std::string name = nodes == NodeEncoding::topology ? "topology" : codec;
+    Stored stored{name, folder / (name + ".bvhx"), {}};
     std::ofstream out(stored.path, std::ios::binary);
     WriteOptions options;
     options.codec = codec;
+    options.nodes = nodes;
     writeBvhx(out, content, options);
     out.close();
     if (!out) throw Error(ErrorKind::io, stored.path.string() + ": cannot write");
@@ -75,8 +77,10 @@ void measure(const fs::path& path, int rounds, const EmbreeDevice& device, const
     const Ray ray = firstRay(scene, bvh);
     const TemporaryDirectory folder;
     std::vector<Stored> files;
-    for (const char* codec : {"none", "zstd"})
-        files.push_back(store(folder.path(), {scene, AabbForm(bvh), {}, {}, {}}, codec));
+    for (const auto& [codec, nodes] : {std::pair{"none", NodeEncoding::plain},
+                                       {"zstd", NodeEncoding::plain},
+                                       {"zstd", NodeEncoding::topology}})
+        files.push_back(store(folder.path(), {scene, AabbForm(bvh), {}, {}, {}}, codec, nodes));
 
     Samples embrees;
     for (int round = 0; round < rounds; ++round) {

@@ -81,6 +81,10 @@ void tryBytes(std::span<const std::byte> bytes) {
                           packed = written(file, {.codec = "zstd", .codecLevel = 1});
         require(written(readBvhx(asBytes(plain), "plain"), {}) == plain);
         require(written(readBvhx(asBytes(packed), "packed"), {}) == plain);
+        if (std::holds_alternative<AabbForm>(file.bvh)) {
+            const std::string topology = written(file, {.nodes = NodeEncoding::topology});
+            require(written(readBvhx(asBytes(topology), "topology"), {}) == plain);
+        }
     } catch (const Error& error) {
         require(!sound);
         require(error.kind() == ErrorKind::invalid || error.kind() == ErrorKind::unsupported);

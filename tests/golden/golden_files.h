@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "build/median.h"
+#include "common/shuffled_tree.h"
 #include "file/bvhx_file.h"
 #include "file/container.h"
 
@@ -90,6 +91,13 @@ inline BvhxFile splitTriangle() {
     return {scene, AabbForm({std::move(nodes), std::vector<uint32_t>{1, 0, 1}}), {}, {}, {}};
 }
 
+/// The grid with its pairs and its leaves' ranges in no order that has a name.
+inline BvhxFile shuffledGrid() {
+    BvhxFile file = grid();
+    file.bvh = AabbForm(test::shuffledTree(decode(file.bvh), 1));
+    return file;
+}
+
 /// A file with its tree in another form.
 inline BvhxFile inForm(BvhxFile file, std::string_view form) {
     file.bvh = choose(forms(), "form", form).function(file.scene, decode(file.bvh), {});
@@ -106,6 +114,10 @@ inline std::vector<GoldenFile> goldenFiles() {
              {.codec = "zstd", .geometry = GeometryEncoding::draco, .dracoPositionBits = 8}},
             {"two_triangles_ssh", inForm(twoTriangles(), "ssh"), {}},
             {"grid_ssh_zstd", inForm(grid(), "ssh"), {.codec = "zstd"}},
+            {"two_triangles_topology", twoTriangles(), {.nodes = NodeEncoding::topology}},
+            {"grid_topology_zstd", grid(), {.codec = "zstd", .nodes = NodeEncoding::topology}},
+            {"grid_shuffled_topology", shuffledGrid(), {.nodes = NodeEncoding::topology}},
+            {"split_triangle_topology", splitTriangle(), {.nodes = NodeEncoding::topology}},
             {"one_leaf", oneLeaf(), {}},
             {"split_triangle", splitTriangle(), {}}};
 }

@@ -63,6 +63,7 @@ TEST(Golden, workedBytesOfThePagesAreTrue) {
     for (const auto& [page, form] : {std::pair<std::string, std::string>{"container", ""},
                                      {"chunks", ""},
                                      {"aabb", ""},
+                                     {"topology", "_topology"},
                                      {"ssh", "_ssh"}}) {
         const std::string file = fileText("tests/golden/v1/two_triangles" + form + ".bvhx");
         std::istringstream text(fileText("format-spec/" + page + ".md"));

@@ -19,6 +19,7 @@ code bvh-restructure cube.bvhx --method best
 code bvh-relayout cube.bvhx --layout dsf
 code bvh-compress cube.bvhx --codec zsdt
 code bvh-compress cube.bvhx --geometry rew
+code bvh-compress cube.bvhx --form ssh --codec topology
 code bvh-trace cube.bvhx --resolution 64
 code bvh-trace cube.bvhx --camera here
 code bvh-trace cube.bvhx --rays prinary

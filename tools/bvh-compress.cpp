@@ -1,4 +1,8 @@
 // bvh-compress: chooses how a container's tree is stored, and squeezes its chunks.
+#include <algorithm>
+
+#include "common/form_search.h"
+#include "common/log.h"
 #include "common/pass.h"
 #include "common/run_tool.h"
 #include "compress/exact_boxes.h"
@@ -13,6 +17,7 @@ const ToolInfo kTool = {
     "Stores a container's tree in another form, and squeezes its chunks.",
     "  bvh-compress scene.bvhx --codec zstd -o small.bvhx\n"
     "  bvh-compress scene.bvhx --codec topology -o smaller.bvhx\n"
+    "  bvh-compress scene.bvhx --max-slowdown 1.2 --pareto forms.csv -o compact.bvhx\n"
     "  bvh-compress scene.bvhx --geometry draco --position-bits 14 -o rounded.bvhx\n",
 };
 
@@ -21,12 +26,21 @@ const std::vector<NamedValue> kGeometries = {
     {"draco", "vertices rounded to a grid; boxes follow, and triangles keep their ids"},
 };
 
+/// The file's tree with the boxes that it is about: those of a compact form are larger.
+Bvh exactTree(const BvhxFile& file) {
+    const Bvh bvh = decode(file.bvh);
+    return std::holds_alternative<AabbForm>(file.bvh) ? bvh : withExactBoxes(file.scene, bvh);
+}
+
 /// What `form` is made from: boxes as the file's form has them for aabb, which decodes; else exact ones, so
 /// that they do not grow from one compact form to the next.
 Bvh treeFor(std::string_view form, const BvhxFile& file) {
-    const Bvh bvh = decode(file.bvh);
-    const bool isCompact = !std::holds_alternative<AabbForm>(file.bvh);
-    return isCompact && form != AabbForm::kName ? withExactBoxes(file.scene, bvh) : bvh;
+    return form == AabbForm::kName ? decode(file.bvh) : exactTree(file);
+}
+
+bool isGiven(const CommandLine& line, std::string_view name) {
+    const std::vector<std::string> given = line.given();
+    return std::find(given.begin(), given.end(), name) != given.end();
 }
 
 /// The codecs of chunks, and one that squeezes the nodes of the aabb form as well.
@@ -40,19 +54,40 @@ ExitCode compress(CommandLine& line) {
     std::string form(forms()[0].name), codec = "zstd", geometry(kGeometries[0].name);
     uint32_t level = 0, positionBits = 16;
     line.choice("--form", form, namedValues(forms()), "how nodes are stored");
+    FormSearch search(line);
     line.choice("--codec", codec, codecNames(), "what squeezes the chunks");
     line.number("--level", level, 0, 22, "the codec's effort; 0: its own default");
     line.choice("--geometry", geometry, kGeometries, "how the triangles are stored");
     line.number("--position-bits", positionBits, 1, 30, "bits a coordinate, for draco");
+    line.beginPlumbing();
+    search.declareOutput(line);
     Pass pass(line, "INPUT", "the container; - or nothing: standard input");
+    search.prepare(line, {"--codec", "--level", "--geometry", "--position-bits"});
 
     const bool topology = codec == "topology";
-    if (topology && form != AabbForm::kName)
+    if (topology && (form != AabbForm::kName || search.choosesForm()))
         throw Error(ErrorKind::usage,
                     "--codec topology: only --form aabb has boxes that fit again: use --codec zstd");
     BvhxFile file = pass.read();
+    EncodeOptions encoding;
+    Report extra = Report::object();
+    if (search.isWanted()) {
+        pass.stages().begin("search");
+        const bool onlyForm = search.choosesForm() && isGiven(line, "--form");
+        const TunedEncoding* chosen =
+            search.search(file.scene, exactTree(file), onlyForm ? form : "", pass.stages().progress());
+        if (search.choosesForm() && chosen == nullptr) {
+            logError(search.refusal());
+            return ExitCode::findings;
+        }
+        if (chosen != nullptr) {
+            form = chosen->candidate.form;
+            encoding = chosen->candidate.options;
+        }
+        extra["search"] = search.report();
+    }
+    pass.recordOptions(search.recordedOptions(line));
     pass.stages().begin("compress");
-    const EncodeOptions encoding;
     if (formNameOf(file.bvh) != form || optionsOf(file.bvh) != encoding) {
         file.bvh = choose(forms(), "form", form).function(file.scene, treeFor(form, file), encoding);
         dropChunksThatDoNotSurvive(file, Change::reordered);
@@ -63,7 +98,7 @@ ExitCode compress(CommandLine& line) {
     options.codecLevel = int(level);
     options.geometry = geometry == "draco" ? GeometryEncoding::draco : GeometryEncoding::raw;
     options.dracoPositionBits = int(positionBits);
-    pass.finish(file, options, "compress");
+    pass.finish(file, options, "compress", extra);
     return ExitCode::done;
 }
 

@@ -167,7 +167,7 @@ void CommandLine::number(const std::string& names, float& value, float min, floa
                          const std::string& help) {
     const std::string name = names.substr(names.rfind(',') + 1);
     parser_->add(
-        names, "X", withDefault(help, shortest(value)),
+        names, "X", value < min ? help : withDefault(help, shortest(value)),
         [=, &value](const std::string& text) {
             const auto number = parseNumber<float>(text);
             if (!number || !(*number >= min && *number <= max))
@@ -175,7 +175,7 @@ void CommandLine::number(const std::string& names, float& value, float min, floa
                                                   shortest(min) + " to " + shortest(max));
             value = *number + 0.0f;  // -0 is 0: files have no -0
         },
-        [&value] { return Report(*parseNumber<double>(shortest(value))); });
+        [&value, min] { return value < min ? Report() : Report(*parseNumber<double>(shortest(value))); });
 }
 
 void CommandLine::text(const std::string& names, const std::string& valueName, std::string& value,

@@ -50,7 +50,7 @@ class CommandLine {
                 const std::string& help);
     void number(const std::string& names, uint64_t& value, uint64_t min, uint64_t max,
                 const std::string& help);
-    /// A finite number in [min, max].
+    /// A finite number in [min, max]. A default below min stands for none.
     void number(const std::string& names, float& value, float min, float max, const std::string& help);
     void text(const std::string& names, const std::string& valueName, std::string& value,
               const std::string& help);

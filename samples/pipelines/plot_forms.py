@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""Draws what bvh-compress --pareto wrote: bytes per triangle against slowdown, one panel a file.
+
+Usage: plot_forms.py TABLE.csv... -o PLOT.png    (any format that matplotlib writes: .png, .svg, .pdf)
+
+Needs matplotlib (Debian: python3-matplotlib; samples/setup.sh plots). A panel is called by its file's name. The line joins
+the forms that no other beats in both size and time: the nearer to the lower left corner the better.
+"""
+import argparse
+import csv
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+COLOURS = ["#222222", "#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb"]
+
+
+def read(path):
+    with open(path, newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["slowdown"]]
+    for row in rows:
+        row["x"], row["y"] = float(row["bytes_per_primitive"]), float(row["slowdown"])
+    return rows
+
+
+def draw(axis, title, rows, colours):
+    frontier = sorted((row["x"], row["y"]) for row in rows if row["status"] != "dominated")
+    axis.plot(*zip(*frontier), color="#999999", linewidth=1, zorder=1)
+    for form, colour in colours.items():
+        points = [row for row in rows if row["form"] == form]
+        axis.scatter([row["x"] for row in points], [row["y"] for row in points], color=colour, s=30, label=form, zorder=3)
+    for row in rows:
+        if row["status"] == "chosen":
+            axis.scatter(row["x"], row["y"], s=120, facecolors="none", edgecolors="black", zorder=2)
+        if row["status"] != "dominated" and row["parameters"]:
+            words = row["parameters"].split()
+            axis.annotate(" ".join(word.lstrip("-") for word in words), (row["x"], row["y"]), fontsize=6,
+                          xytext=(4, 4), textcoords="offset points")
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    axis.yaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+    axis.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+    axis.xaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+    axis.set_title(title, fontsize=10)
+    axis.set_xlabel("node bytes per triangle")
+    axis.set_ylabel("time over that of the aabb form")
+    axis.grid(True, which="major", color="#eeeeee")
+    axis.set_axisbelow(True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("tables", nargs="+", metavar="TABLE.csv")
+    parser.add_argument("-o", "--output", required=True, metavar="PLOT.png")
+    options = parser.parse_args()
+
+    tables = [(os.path.splitext(os.path.basename(path))[0], read(path)) for path in options.tables]
+    forms = list(dict.fromkeys(row["form"] for _, rows in tables for row in rows))
+    colours = {form: COLOURS[i % len(COLOURS)] for i, form in enumerate(forms)}
+    columns = min(len(tables), 3)
+    lines = -(-len(tables) // columns)
+    figure, axes = plt.subplots(lines, columns, figsize=(4.8 * columns, 4.0 * lines), squeeze=False)
+    for axis in axes.flat[len(tables):]:
+        axis.set_visible(False)
+    for axis, (title, rows) in zip(axes.flat, tables):
+        draw(axis, title, rows, colours)
+    axes.flat[0].legend(fontsize=8)
+    figure.tight_layout()
+    figure.savefig(options.output, dpi=110)
+
+
+if __name__ == "__main__":
+    main()

@@ -51,13 +51,8 @@ def draw(axis, title, rows, colours):
     axis.set_axisbelow(True)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("tables", nargs="+", metavar="TABLE.csv")
-    parser.add_argument("-o", "--output", required=True, metavar="PLOT.png")
-    options = parser.parse_args()
-
-    tables = [(os.path.splitext(os.path.basename(path))[0], read(path)) for path in options.tables]
+def plot(tables, path):
+    """Draws (title, rows) pairs, a panel each."""
     forms = list(dict.fromkeys(row["form"] for _, rows in tables for row in rows))
     colours = {form: COLOURS[i % len(COLOURS)] for i, form in enumerate(forms)}
     columns = min(len(tables), 3)
@@ -69,7 +64,16 @@ def main():
         draw(axis, title, rows, colours)
     axes.flat[0].legend(fontsize=8)
     figure.tight_layout()
-    figure.savefig(options.output, dpi=110)
+    figure.savefig(path, dpi=110)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("tables", nargs="+", metavar="TABLE.csv")
+    parser.add_argument("-o", "--output", required=True, metavar="PLOT.png")
+    options = parser.parse_args()
+
+    plot([(os.path.splitext(os.path.basename(path))[0], read(path)) for path in options.tables], options.output)
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ const ToolInfo kTool = {
     "Stores a container's tree in another form, and squeezes its chunks.",
     "  bvh-compress scene.bvhx --codec zstd -o small.bvhx\n"
     "  bvh-compress scene.bvhx --codec topology -o smaller.bvhx\n"
+    "  bvh-compress scene.bvhx --form two-level --blas-form ssh --blas-size 32 -o two-level.bvhx\n"
     "  bvh-compress scene.bvhx --max-slowdown 1.2 --pareto forms.csv -o compact.bvhx\n"
     "  bvh-compress scene.bvhx --geometry draco --position-bits 14 -o rounded.bvhx\n",
 };
@@ -50,10 +51,57 @@ std::vector<NamedValue> codecNames() {
     return names;
 }
 
+/// Options of the two-level form: empty or 0 where not given.
+class TwoLevelOptions {
+  public:
+    explicit TwoLevelOptions(CommandLine& line) {
+        line.choice("--tlas-form", tlasForm_, namesOf<TlasForm>(), "two-level: how the top level is stored");
+        line.choice("--blas-form", blasForm_, namesOf<BlasForm>(), "two-level: how BLASes are stored");
+        line.number("--blas-size", blasSize_, 1, kMaxLeafSize,
+                    "two-level: most references in a BLAS, where leaves allow it");
+    }
+
+    /// Adds what was given to the options for `form`, and fills in the rest.
+    void addTo(EncodeOptions& options, std::string_view form) {
+        if (form != TwoLevelForm::kName) {
+            for (const auto& [name, given] : {std::pair{"--tlas-form", !tlasForm_.empty()},
+                                              {"--blas-form", !blasForm_.empty()},
+                                              {"--blas-size", blasSize_ != 0}})
+                if (given)
+                    throw Error(ErrorKind::usage, std::string(name) + ": is for --form two-level, not " +
+                                                      std::string(form) + ": leave it out");
+            return;
+        }
+        take(tlasForm_, options.tlasForm);
+        take(blasForm_, options.blasForm);
+        if (blasSize_ == 0) blasSize_ = options.blasSize;
+        options.blasSize = blasSize_;
+    }
+
+  private:
+    template <class LevelForm>
+    static std::vector<NamedValue> namesOf() {
+        std::vector<NamedValue> names;
+        for (size_t i = 0; i < levelForms<LevelForm>().size(); ++i)
+            names.push_back({levelForms<LevelForm>()[i], i == 0 ? "the default" : ""});
+        return names;
+    }
+    template <class LevelForm>
+    static void take(std::string& name, LevelForm& form) {
+        const auto names = levelForms<LevelForm>();
+        if (name.empty()) name = names[size_t(form)];
+        form = LevelForm(std::find(names.begin(), names.end(), name) - names.begin());
+    }
+
+    std::string tlasForm_, blasForm_;
+    uint32_t blasSize_ = 0;
+};
+
 ExitCode compress(CommandLine& line) {
     std::string form(forms()[0].name), codec = "zstd", geometry(kGeometries[0].name);
     uint32_t level = 0, positionBits = 16;
     line.choice("--form", form, namedValues(forms()), "how nodes are stored");
+    TwoLevelOptions twoLevel(line);
     FormSearch search(line);
     line.choice("--codec", codec, codecNames(), "what squeezes the chunks");
     line.number("--level", level, 0, 22, "the codec's effort; 0: its own default");
@@ -64,12 +112,13 @@ ExitCode compress(CommandLine& line) {
     Pass pass(line, "INPUT", "the container; - or nothing: standard input");
     search.prepare(line, {"--codec", "--level", "--geometry", "--position-bits"});
 
+    EncodeOptions encoding;
+    twoLevel.addTo(encoding, form);
     const bool topology = codec == "topology";
     if (topology && (form != AabbForm::kName || search.choosesForm()))
         throw Error(ErrorKind::usage,
                     "--codec topology: only --form aabb has boxes that fit again: use --codec zstd");
     BvhxFile file = pass.read();
-    EncodeOptions encoding;
     Report extra = Report::object();
     if (search.isWanted()) {
         pass.stages().begin("search");

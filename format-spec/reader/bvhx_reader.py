@@ -24,7 +24,7 @@ UNSUPPORTED = {1003, 1004, 1014, 2001, 2008, 2010}
 CRITICAL = 1
 
 # Known types in file order: flags.
-KNOWN = {"SCEN": 7, "VERT": 7, "TRIS": 7, "DRCO": 7, "GEOM": 7, "SRCP": 7, "TREE": 1, "FORM": 1, "NODE": 1, "PRIM": 1,
+KNOWN = {"SCEN": 7, "VERT": 7, "TRIS": 7, "DRCO": 7, "GEOM": 7, "SRCP": 7, "TREE": 1, "FORM": 1, "NODE": 1, "TLAS": 1, "ROOT": 1, "BLAS": 1, "PRIM": 1,
          "TOPO": 1, "PROV": 6}
 
 
@@ -314,7 +314,62 @@ def read_ssh(chunks, slots, references):
     return nodes, chunks.expect("PRIM", 4 * references)
 
 
-FORMS = {b"aabb": read_aabb, b"ssh ": read_ssh}
+def join_aabb(node, index, slots, base):
+    """A node of a level as one of the whole tree, where the level's slots start at `base`."""
+    first, count = node[6:]
+    reject_if(count == 0 and not index < first < slots, 3002, f"node {index} of a level")
+    return (*node[:6], first + base, 0) if count == 0 else node
+
+
+def ssh_node(index, plane, word, box, slots, base, inherited):
+    """The same for an ssh node (index -1: a root), which leaves its box with its children."""
+    side, kind, rest = word & 7, word >> 3 & 3, word >> 5
+    reject_if(side > 5 or (index < 0 and side != 0), 3010, f"node {index} of a level")
+    if plane is not None:
+        reject_if(math.isfinite(plane) and (plane < box[side] if side < 3 else plane > box[side]), 4002, f"node {index}")
+        box = (*box[:side], plane, *box[side + 1:])
+    if kind == 3:
+        return (*box, rest & (2**25 - 1), (rest >> 25) + 1)
+    reject_if(not index < 2 * rest < slots, 3002, f"node {index} of a level")
+    inherited[2 * rest] = inherited[2 * rest + 1] = box
+    return (*box, 2 * rest + base, 0)
+
+
+def read_two_level(chunks, slots, references):
+    raw = chunks.expect("FORM", 64)
+    tlas_form, blas_form, blas_size, reserved, tlas_slots, blases = struct.unpack_from("<4s4s2I2Q", raw)
+    reject_if(reserved != 0 or any(raw[32:]), 2006, "FORM: reserved")
+    reject_if(not (2 <= tlas_slots <= slots and tlas_slots % 2 == 0 and 1 <= blases <= references and 1 <= blas_size <= 65535), 2011,
+              "FORM: counts")
+    reject_if(tlas_form != b"aabb" or blas_form not in (b"aabb", b"ssh "), 2010, "form of a level")
+    reject_if(blas_form == b"ssh " and references > 2**25, 2011, "references")
+    slots -= tlas_slots
+    raw = chunks.expect("TLAS", 32 * tlas_slots)
+    reject_if(any(raw[32:64]), 3001, "slot 1")
+    nodes = list(struct.iter_unpack("<6f2I", raw))
+    leaves = [i for i, node in enumerate(nodes) if node[7] != 0]
+    for i in leaves:
+        reject_if(nodes[i][7] != 1 or nodes[i][6] >= blases, 3004, f"leaf {i}")
+    if blas_form == b"aabb":
+        roots = list(struct.iter_unpack("<2I", chunks.expect("ROOT", 8 * blases)))
+        below = [join_aabb(n, i, slots, tlas_slots) for i, n in enumerate(struct.iter_unpack("<6f2I", chunks.expect("BLAS", 32 * slots)))]
+        whole = [join_aabb((*nodes[i][:6], *roots[nodes[i][6]]), -1, slots, tlas_slots) for i in leaves]
+    else:
+        roots = struct.unpack(f"<{blases}I", chunks.expect("ROOT", 4 * blases))
+        inherited, below = {}, []
+        whole = [ssh_node(-1, None, roots[nodes[i][6]], nodes[i][:6], slots, tlas_slots, inherited) for i in leaves]
+        for i, (plane, word) in enumerate(struct.iter_unpack("<fI", chunks.expect("BLAS", 8 * slots))):
+            reject_if(i not in inherited, 3003, f"node {i} of the bottom level")
+            below.append(ssh_node(i, plane, word, inherited[i], slots, tlas_slots, inherited))
+    for i, node in enumerate(nodes):
+        if i != 1 and node[7] == 0:
+            join_aabb(node, i, tlas_slots, 0)
+    for i, root in zip(leaves, whole):
+        nodes[i] = root
+    return nodes + below, chunks.expect("PRIM", 4 * references)
+
+
+FORMS = {b"aabb": read_aabb, b"ssh ": read_ssh, b"two ": read_two_level}
 
 
 def check_tree(nodes, raw_primitives, slots, references, stated_depth, scene):

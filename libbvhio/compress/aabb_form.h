@@ -16,6 +16,11 @@ class AabbForm {
     /// What a node says of its children, copied: the node itself need not be fetched again.
     struct Cursor {
         uint32_t first, primitiveCount;
+
+        BVHIO_INLINE void set(const Node& node, uint32_t) {
+            first = node.first;
+            primitiveCount = node.primitiveCount;
+        }
     };
 
     explicit AabbForm(Bvh bvh) : bvh_(std::move(bvh)) {}
@@ -40,31 +45,38 @@ class AabbForm {
         return !part.isEmpty();
     }
 
-    /// The record is the pair of siblings: one cache line.
     template <class Metrics>
     BVHIO_INLINE int step(const Entered<Cursor>& from, const PreparedRay& ray, float tLimit,
                           Entered<Cursor>* children, Metrics& metrics) const {
-        const Cursor cursor = from.cursor;
-        metrics.recordFetched(cursor.first * sizeof(Node), 2 * sizeof(Node));
+        return stepToPair(from.cursor.first, ray, tLimit, children, metrics);
+    }
+
+    /// To the siblings from index `pair` on. The record is both: one cache line. C is a cursor of any kind,
+    /// set from a node and its index.
+    template <class C, class Metrics>
+    BVHIO_INLINE int stepToPair(uint32_t pair, const PreparedRay& ray, float tLimit, Entered<C>* children,
+                                Metrics& metrics) const {
+        metrics.recordFetched(pair * sizeof(Node), 2 * sizeof(Node));
         metrics.boxesTested(2, kBoxTestCost);
-        const Node* pair = bvh_.nodes.data() + cursor.first;
-        const RayInterval left = clipToBox(ray, pair[0].bounds, tLimit);
-        const RayInterval right = clipToBox(ray, pair[1].bounds, tLimit);
-        if (left.isEmpty()) {
-            if (right.isEmpty()) return 0;
-            enter(pair[1], right.enter, children[0]);
+        const Node& left = bvh_.nodes[pair];
+        const Node& right = bvh_.nodes[pair + 1];
+        const RayInterval inLeft = clipToBox(ray, left.bounds, tLimit);
+        const RayInterval inRight = clipToBox(ray, right.bounds, tLimit);
+        if (inLeft.isEmpty()) {
+            if (inRight.isEmpty()) return 0;
+            enter(children[0], pair + 1, inRight.enter);
             return 1;
         }
-        if (right.isEmpty()) {
-            enter(pair[0], left.enter, children[0]);
+        if (inRight.isEmpty()) {
+            enter(children[0], pair, inLeft.enter);
             return 1;
         }
-        if (right.enter < left.enter) {
-            enter(pair[1], right.enter, children[0]);
-            enter(pair[0], left.enter, children[1]);
+        if (inRight.enter < inLeft.enter) {
+            enter(children[0], pair + 1, inRight.enter);
+            enter(children[1], pair, inLeft.enter);
         } else {
-            enter(pair[0], left.enter, children[0]);
-            enter(pair[1], right.enter, children[1]);
+            enter(children[0], pair, inLeft.enter);
+            enter(children[1], pair + 1, inRight.enter);
         }
         return 2;
     }
@@ -73,9 +85,9 @@ class AabbForm {
     PrimitiveRange primitiveRange(Cursor cursor) const { return {cursor.first, cursor.primitiveCount}; }
 
   private:
-    static BVHIO_INLINE void enter(const Node& node, float at, Entered<Cursor>& child) {
-        child.cursor.first = node.first;
-        child.cursor.primitiveCount = node.primitiveCount;
+    template <class C>
+    BVHIO_INLINE void enter(Entered<C>& child, uint32_t index, float at) const {
+        child.cursor.set(bvh_.nodes[index], index);
         child.enter = at;
     }
 

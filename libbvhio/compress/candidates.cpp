@@ -2,10 +2,24 @@
 
 namespace bvhio {
 
+namespace {
+
+EncodingCandidate twoLevel(std::string_view parameters, TlasForm tlasForm, BlasForm blasForm,
+                           uint32_t blasSize) {
+    EncodeOptions options;
+    options.tlasForm = tlasForm;
+    options.blasForm = blasForm;
+    options.blasSize = blasSize;
+    return {"two-level", parameters, options};
+}
+
+}  // namespace
+
 std::span<const EncodingCandidate> encodingCandidates() {
     static const EncodingCandidate kTable[] = {
         {"aabb", ""},
         {"ssh", ""},
+        twoLevel("--tlas-form aabb --blas-form ssh --blas-size 32", TlasForm::aabb, BlasForm::ssh, 32),
     };
     return kTable;
 }

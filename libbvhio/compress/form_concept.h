@@ -40,18 +40,25 @@ struct NoMetrics {
     BVHIO_INLINE void popped(size_t) {}
 };
 
+/// Forms of the two-level form's levels, the default first.
+enum class TlasForm : uint8_t { aabb };
+enum class BlasForm : uint8_t { ssh, aabb };
+
 /// What forms can be told; each takes what concerns it.
 struct EncodeOptions {
+    // two-level
+    TlasForm tlasForm{};
+    BlasForm blasForm{};
+    uint32_t blasSize = 16;  // primitives that a BLAS has at most, unless a single leaf has more
+
     bool operator==(const EncodeOptions&) const = default;
 };
 
-/// A form stores a BVH, decodes it, and lets rays step through it as stored. Traversal (trace/traverse.h)
-/// owns the stack, the order and the culling; a form owns its Cursor (an index; an index and a decoded box;
-/// an index and ray parameters) and:
+/// Nodes that a ray steps through as they are stored. Traversal (trace/traverse.h) owns the stack, the order
+/// and the culling; a form owns its Cursor (an index; an index and a decoded box; an index and ray
+/// parameters) and:
 ///
 /// - Ray: what it makes of a PreparedRay once before the traversal; a reference to that where nothing.
-/// - enterRoot: tests the root's box; false when the ray misses it. Else `root` is where traversal starts.
-/// - encode: of a valid tree over the scene. Boxes may grow; leaves keep their triangles, but may be divided.
 /// - step: from an inner node as it was entered, tests the children's boxes and writes those entered to
 /// `children`, nearest first (equal
 ///   ones in stored order); returns how many. A child is entered when its part of the ray, cut off at
@@ -62,22 +69,38 @@ struct EncodeOptions {
 ///
 /// Each record fetched and each box tested is told to the metrics.
 template <class F>
-concept Form = requires(const F form, const typename F::Cursor cursor, const typename F::Ray ray,
-                        float tLimit, const Entered<typename F::Cursor> entered,
-                        Entered<typename F::Cursor>* children, Entered<typename F::Cursor>& root,
-                        NoMetrics metrics, const Scene scene, const Bvh bvh, const EncodeOptions options) {
+concept SteppableForm = requires(const F form, const typename F::Cursor cursor, const typename F::Ray ray,
+                                 float tLimit, const Entered<typename F::Cursor> entered,
+                                 Entered<typename F::Cursor>* children, NoMetrics metrics) {
+    { F::kMaxChildren } -> std::convertible_to<int>;
+    { form.step(entered, ray, tLimit, children, metrics) } -> std::same_as<int>;
+    { form.isLeaf(cursor) } -> std::same_as<bool>;
+    { form.primitiveRange(cursor) } -> std::same_as<PrimitiveRange>;
+};
+
+/// A form stores a BVH and decodes it. One whose nodes are all of a kind is a Form; others (the two-level
+/// form) have a traversal of their own.
+///
+/// - encode: of a valid tree over the scene. Boxes may grow; leaves keep their triangles, but may be divided.
+template <class F>
+concept StoredForm = requires(const F form, const Scene scene, const Bvh bvh, const EncodeOptions options) {
     { F::encode(scene, bvh, options) } -> std::same_as<F>;
     { form.options() } -> std::same_as<EncodeOptions>;  // that encode another tree alike
     { F::kName } -> std::convertible_to<std::string_view>;
     { F::kSummary } -> std::convertible_to<std::string_view>;
-    { F::kMaxChildren } -> std::convertible_to<int>;
     { form.decode() } -> std::same_as<Bvh>;                                   // boxes as reconstructed
     { form.primitives() } -> std::convertible_to<std::span<const uint32_t>>;  // leaf order -> triangle
     { form.nodeBytes() } -> std::same_as<size_t>;                             // in memory, nodes only
+};
+
+/// A form whose nodes, from the root down, are all stepped through alike:
+///
+/// - enterRoot: tests the root's box; false when the ray misses it. Else `root` is where traversal starts.
+template <class F>
+concept Form = StoredForm<F> && SteppableForm<F> &&
+    requires(const F form, const typename F::Ray ray, float tLimit, Entered<typename F::Cursor>& root,
+             NoMetrics metrics) {
     { form.enterRoot(ray, tLimit, root, metrics) } -> std::same_as<bool>;
-    { form.step(entered, ray, tLimit, children, metrics) } -> std::same_as<int>;
-    { form.isLeaf(cursor) } -> std::same_as<bool>;
-    { form.primitiveRange(cursor) } -> std::same_as<PrimitiveRange>;
 };
 
 }  // namespace bvhio

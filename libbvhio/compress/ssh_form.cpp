@@ -49,78 +49,118 @@ int separatingAxis(const Aabb& a, const Aabb& b) {
     return best;
 }
 
-/// The canonical tree with no leaf above the form's size: larger ones are halved, each half within the same
-/// box. New pairs stand behind all others.
-Bvh withSmallLeaves(const Bvh& bvh) {
-    AlignedVector<Node> nodes(bvh.nodes.begin(), bvh.nodes.end());
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        const Node leaf = nodes[i];
-        if (leaf.primitiveCount <= SshNode::kMaxLeafSize) continue;
+/// The trees with no leaf above the form's size: larger ones are halved, each half within the same box. New
+/// pairs stand behind all others.
+Forest withSmallLeaves(const Forest& given) {
+    bool large = false;
+    for (const auto* list : {&given.roots, &given.nodes})
+        for (const Node& node : *list) large |= node.primitiveCount > SshNode::kMaxLeafSize;
+    if (!large) return given;
+
+    AlignedVector<Node> roots(given.roots.begin(), given.roots.end());
+    AlignedVector<Node> nodes(given.nodes.begin(), given.nodes.end());
+    const auto divided = [&](const Node leaf) {
+        if (leaf.primitiveCount <= SshNode::kMaxLeafSize) return leaf;
         const auto pair = uint32_t(nodes.size());
         const uint32_t half = leaf.primitiveCount / 2;
         nodes.push_back({leaf.bounds, leaf.first, half});
         nodes.push_back({leaf.bounds, leaf.first + half, leaf.primitiveCount - half});
-        nodes[i] = {leaf.bounds, pair, 0};
+        return Node{leaf.bounds, pair, 0};
+    };
+    for (Node& root : roots) root = divided(root);
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        const Node node = divided(nodes[i]);
+        nodes[i] = node;
     }
-    return {std::move(nodes), bvh.primitives};
+    return {std::move(roots), std::move(nodes)};
+}
+
+void refuseTooMany(size_t references) {
+    if (references > SshNode::kMaxReferences)
+        throw Error(ErrorKind::unsupported, "the ssh form holds at most " +
+                                                std::to_string(SshNode::kMaxReferences) +
+                                                " references: use another --form");
+}
+
+/// Codes nodes, parents first: each notes what its children need.
+class PairEncoder {
+  public:
+    explicit PairEncoder(const SharedArray<Node>& nodes)
+        : nodes_(nodes), inherited_(nodes.size() / 2), swapped_(nodes.size() / 2) {}
+
+    /// The node at index i, whose parent was coded: it may be the sibling of what stood there.
+    SshNode at(size_t i) { return code(nodes_[i ^ swapped_[i / 2]], inherited_[i / 2]); }
+
+    SshNode code(const Node& node, Aabb box) {
+        const uint32_t side = carve(box, node.bounds);
+        const float plane = bvhio::plane(node.bounds, side);
+        if (node.isLeaf()) return SshNode::leaf(plane, side, node.first, node.primitiveCount);
+        const Aabb &left = nodes_[node.left()].bounds, &right = nodes_[node.right()].bounds;
+        const int split = separatingAxis(left, right);
+        const size_t pair = node.left() / 2;
+        inherited_[pair] = box;
+        swapped_[pair] =
+            double(left.min[split]) + left.max[split] > double(right.min[split]) + right.max[split];
+        return SshNode::inner(plane, side, uint32_t(split), node.left());
+    }
+
+  private:
+    const SharedArray<Node>& nodes_;
+    Buffer<Aabb> inherited_;
+    Buffer<uint8_t> swapped_;
+};
+
+/// The node within its box. An inner node leaves the box with its children, in `nodes`.
+Node decoded(uint32_t word, const Aabb& box, Buffer<Node>& nodes) {
+    const SshNode node{0, word};
+    if (node.isLeaf()) return {box, node.firstPrimitive(), node.primitiveCount()};
+    nodes[node.left()].bounds = nodes[node.left() + 1].bounds = box;
+    return {box, node.left(), 0};
+}
+
+Node decoded(const SshNode& node, Aabb box, Buffer<Node>& nodes) {
+    plane(box, node.side()) = node.plane;
+    return decoded(node.word, box, nodes);
 }
 
 }  // namespace
 
-SshForm SshForm::encode(const Scene&, const Bvh& given, const EncodeOptions&) {
-    if (given.primitives.size() > SshNode::kMaxReferences)
-        throw Error(ErrorKind::unsupported, "the ssh form holds at most " +
-                                                std::to_string(SshNode::kMaxReferences) +
-                                                " references: use another --form");
-    bool large = false;
-    for (const Node& node : given.nodes) large |= node.primitiveCount > SshNode::kMaxLeafSize;
-    const Bvh bvh = large ? withSmallLeaves(given) : given;
-
-    Buffer<SshNode> nodes(bvh.nodes.size());
+SshForm SshForm::encode(const Scene&, const Bvh& bvh, const EncodeOptions&) {
+    refuseTooMany(bvh.primitives.size());
+    const SharedArray<Node> given = withSmallLeaves({{}, bvh.nodes}).nodes;
+    PairEncoder encoder(given);
+    Buffer<SshNode> nodes(given.size());
+    nodes[0] = encoder.code(given[0], given[0].bounds);
     nodes[1] = {};
-    // The boxes that a pair's nodes inherit, and their place in the canonical tree: siblings may swap.
-    Buffer<Aabb> inherited(bvh.nodes.size() / 2);
-    Buffer<uint8_t> swapped(bvh.nodes.size() / 2);
-    inherited[0] = bvh.nodes[0].bounds;
-    swapped[0] = 0;
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        if (i == 1) continue;
-        const Node& node = bvh.nodes[i ^ swapped[i / 2]];
-        Aabb box = inherited[i / 2];
-        const uint32_t side = carve(box, node.bounds);
-        const float at = plane(node.bounds, side);
-        if (node.isLeaf()) {
-            nodes[i] = SshNode::leaf(at, side, node.first, node.primitiveCount);
-            continue;
-        }
-        const Aabb &left = bvh.nodes[node.left()].bounds, &right = bvh.nodes[node.right()].bounds;
-        const int split = separatingAxis(left, right);
-        const size_t pair = node.left() / 2;
-        inherited[pair] = box;
-        swapped[pair] =
-            double(left.min[split]) + left.max[split] > double(right.min[split]) + right.max[split];
-        nodes[i] = SshNode::inner(at, side, uint32_t(split), node.left());
-    }
-    return {bvh.nodes[0].bounds, std::move(nodes).share(), bvh.primitives};
+    for (size_t i = 2; i < nodes.size(); ++i) nodes[i] = encoder.at(i);
+    return {given[0].bounds, std::move(nodes).share(), bvh.primitives};
+}
+
+SshForm::Trees SshForm::encodeTrees(const Forest& forest, size_t references) {
+    refuseTooMany(references);
+    const Forest given = withSmallLeaves(forest);
+    PairEncoder encoder(given.nodes);
+    Buffer<uint32_t> roots(given.roots.size());
+    Buffer<SshNode> nodes(given.nodes.size());
+    for (size_t i = 0; i < roots.size(); ++i)
+        roots[i] = encoder.code(given.roots[i], given.roots[i].bounds).word;
+    for (size_t i = 0; i < nodes.size(); ++i) nodes[i] = encoder.at(i);
+    return {std::move(roots).share(), std::move(nodes).share()};
 }
 
 Bvh SshForm::decode() const {
     Buffer<Node> nodes(nodes_.size());
+    nodes[0] = decoded(nodes_[0], bounds_, nodes);
     nodes[1] = {};
-    for (size_t i = 0; i < nodes_.size(); ++i) {
-        if (i == 1) continue;
-        const SshNode& node = nodes_[i];
-        // An inner node leaves its box with its children, which lie behind it.
-        Aabb box = i == 0 ? bounds_ : nodes[i].bounds;
-        plane(box, node.side()) = node.plane;
-        if (node.isLeaf()) {
-            nodes[i] = {box, node.firstPrimitive(), node.primitiveCount()};
-        } else {
-            nodes[i] = {box, node.left(), 0};
-            nodes[node.left()].bounds = nodes[node.left() + 1].bounds = box;
-        }
-    }
+    for (size_t i = 2; i < nodes_.size(); ++i) nodes[i] = decoded(nodes_[i], nodes[i].bounds, nodes);
     return {std::move(nodes).share(), primitives_};
+}
+
+Forest SshForm::decodeTrees(const Trees& trees, std::span<const Aabb> boxes) {
+    Buffer<Node> roots(trees.roots.size()), nodes(trees.nodes.size());
+    for (size_t i = 0; i < roots.size(); ++i) roots[i] = decoded(trees.roots[i], boxes[i], nodes);
+    for (size_t i = 0; i < nodes.size(); ++i) nodes[i] = decoded(trees.nodes[i], nodes[i].bounds, nodes);
+    return {std::move(roots).share(), std::move(nodes).share()};
 }
 
 }  // namespace bvhio

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "compress/form_concept.h"
+#include "compress/two_levels.h"
 #include "core/buffer.h"
 
 namespace bvhio {
@@ -83,6 +84,16 @@ class SshForm {
     const SharedArray<uint32_t>& primitives() const { return primitives_; }
     EncodeOptions options() const { return {}; }
     size_t nodeBytes() const { return nodes_.size() * sizeof(SshNode); }
+
+    /// Many trees: their nodes below the roots, and the words of the roots, whose boxes are elsewhere.
+    struct Trees {
+        SharedArray<uint32_t> roots;
+        SharedArray<SshNode> nodes;
+    };
+    /// As `encode` does; roots keep their boxes.
+    static Trees encodeTrees(const Forest& forest, size_t references);
+    /// `boxes` are the roots'.
+    static Forest decodeTrees(const Trees& trees, std::span<const Aabb> boxes);
 
     using Ray = SshRay;
 

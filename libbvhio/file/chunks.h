@@ -19,6 +19,9 @@ inline constexpr uint32_t kSourcePrimitivesType = chunkType("SRCP");
 inline constexpr uint32_t kTreeType = chunkType("TREE");
 inline constexpr uint32_t kFormType = chunkType("FORM");
 inline constexpr uint32_t kNodesType = chunkType("NODE");
+inline constexpr uint32_t kTlasType = chunkType("TLAS");
+inline constexpr uint32_t kRootsType = chunkType("ROOT");
+inline constexpr uint32_t kBlasType = chunkType("BLAS");
 inline constexpr uint32_t kPrimitivesType = chunkType("PRIM");
 inline constexpr uint32_t kTopologyType = chunkType("TOPO");
 

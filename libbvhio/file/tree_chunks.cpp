@@ -21,18 +21,25 @@ uint32_t depthOf(const Bvh& bvh) {
 }
 
 void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
-               uint64_t nodesOffset, size_t nodeSize, uint32_t chunk) {
+               const std::function<NodesPlace(uint64_t node)>& placeOf) {
     Validation validation =
         validate(bvh, uint32_t(scene.triangles.size()),
                  chunks.sound() ? boundsOfTriangles(scene) : PrimitiveBounds{}, chunks.maxPerId());
     for (Finding& finding : validation.findings) {
-        finding.chunk = chunkTypeName(chunk);
-        if (finding.node != kNowhere) finding.offset = finding.node * nodeSize;
+        const NodesPlace place = placeOf(finding.node == kNowhere ? 0 : finding.node);
+        finding.chunk = chunkTypeName(place.chunk);
+        if (finding.node != kNowhere) finding.offset = place.offset;
     }
     if (validation.findings.empty() && validation.depth != parameters.depth)
         chunks.fail(FindingId::statedDepth, "the tree has depth " + std::to_string(validation.depth) +
                                                 ", TREE states " + std::to_string(parameters.depth));
-    chunks.judge(std::move(validation.findings), nodesOffset);
+    chunks.judge(std::move(validation.findings), 0);
+}
+
+void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
+               uint64_t nodesOffset, size_t nodeSize, uint32_t chunk) {
+    const NodesPlace nodes{chunk, nodesOffset, nodeSize};
+    judgeTree(chunks, bvh, parameters, scene, [&](uint64_t node) { return nodes.of(node); });
 }
 
 }  // namespace bvhio

@@ -2,6 +2,8 @@
 // FormChunks in a file of its own, included by file/form_chunks.cpp.
 #pragma once
 
+#include <functional>
+
 #include "core/bytes.h"
 #include "file/chunks.h"
 
@@ -22,6 +24,18 @@ uint32_t depthOf(const Bvh& bvh);
 /// nodes are records of `nodeSize` bytes from `nodesOffset` on, in a chunk of this type.
 void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
                uint64_t nodesOffset, size_t nodeSize, uint32_t chunk = kNodesType);
+
+/// Where an array of nodes is in a file.
+struct NodesPlace {
+    uint32_t chunk;
+    uint64_t offset;
+    size_t nodeSize;
+
+    NodesPlace of(uint64_t node) const { return {chunk, offset + node * nodeSize, nodeSize}; }
+};
+/// The same for nodes in several arrays: `placeOf` tells where one is.
+void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
+               const std::function<NodesPlace(uint64_t node)>& placeOf);
 
 /// How one form is stored: specialised for each, with
 /// - kCode: TREE's form field,

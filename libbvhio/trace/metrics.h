@@ -144,4 +144,19 @@ struct CombinedMetrics {
     }
 };
 
+/// A policy as the bottom of two levels tells it: its records lie behind the top level's.
+template <class Policy>
+struct MetricsBehind {
+    Policy& policy;
+    size_t topBytes;
+
+    BVHIO_INLINE void recordFetched(size_t offset, size_t bytes) {
+        policy.recordFetched(topBytes + offset, bytes);
+    }
+    BVHIO_INLINE void boxesTested(uint32_t count, BoxTestCost cost) { policy.boxesTested(count, cost); }
+    BVHIO_INLINE void leafEntered(PrimitiveRange range) { policy.leafEntered(range); }
+    BVHIO_INLINE void pushed(size_t bytes) { policy.pushed(bytes); }
+    BVHIO_INLINE void popped(size_t bytes) { policy.popped(bytes); }
+};
+
 }  // namespace bvhio

@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "trace/trace_blocks.h"
 #include "trace/traverse.h"
+#include "trace/traverse_two_level.h"
 
 namespace bvhio {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "trace/trace_blocks.h"
 #include "trace/traverse.h"
+#include "trace/traverse_two_level.h"
 #include "trace/triangle_blocks_simd.h"
 
 HWY_BEFORE_NAMESPACE();

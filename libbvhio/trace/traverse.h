@@ -41,24 +41,20 @@ struct IndexedTriangles {
     }
 };
 
-/// Walks one ray, which must not miss by definition, through the form. Nearer children come first; the others
-/// wait on the stack and are dropped when a hit nearer than their boxes was found meanwhile.
-template <Form F, class Source, class Query, class Metrics>
-HWY_INLINE void traverse(const F& form, const Source& source, const PreparedRay& ray, Query& query,
-                         Metrics& metrics) {
+/// Walks a ray on from a node that it entered, down to the leaves: `visitLeaf(entered)` is called for each
+/// and returns true when the query is done, as this does then. Nearer children come first; the others wait on
+/// the stack and are dropped when a hit nearer than their boxes was found meanwhile.
+template <SteppableForm F, class Query, class Metrics, class VisitLeaf>
+HWY_INLINE bool traverseFrom(const F& form, Entered<typename F::Cursor> current,
+                             const typename F::Ray& formRay, Query& query, Metrics& metrics,
+                             const VisitLeaf& visitLeaf) {
     using Entry = Entered<typename F::Cursor>;
     Entry stack[kMaxDepth * (F::kMaxChildren - 1) + 1];
     Entry* top = stack;
-
-    const typename F::Ray formRay(ray);
-    Entry current;
-    if (!form.enterRoot(formRay, query.boxLimit(), current, metrics)) return;
     for (;;) {
         int entered = 0;
         if (form.isLeaf(current.cursor)) {
-            const PrimitiveRange range = form.primitiveRange(current.cursor);
-            metrics.leafEntered(range);
-            if (source.test(range, ray, query)) return;
+            if (visitLeaf(current)) return true;
         } else {
             Entry children[F::kMaxChildren];
             entered = form.step(current, formRay, query.boxLimit(), children, metrics);
@@ -70,12 +66,39 @@ HWY_INLINE void traverse(const F& form, const Source& source, const PreparedRay&
         }
         if (entered == 0) {
             do {
-                if (top == stack) return;
+                if (top == stack) return false;
                 current = *--top;
                 metrics.popped(sizeof(Entry));
             } while (!(current.enter <= query.boxLimit()));
         }
     }
+}
+
+/// Visits leaves of triangles.
+template <class F, class Source, class Query, class Metrics>
+struct TestTriangles {
+    const F& form;
+    const Source& source;
+    const PreparedRay& ray;
+    Query& query;
+    Metrics& metrics;
+
+    HWY_INLINE bool operator()(const Entered<typename F::Cursor>& leaf) const {
+        const PrimitiveRange range = form.primitiveRange(leaf.cursor);
+        metrics.leafEntered(range);
+        return source.test(range, ray, query);
+    }
+};
+
+/// Walks one ray, which must not miss by definition, through the form.
+template <Form F, class Source, class Query, class Metrics>
+HWY_INLINE void traverse(const F& form, const Source& source, const PreparedRay& ray, Query& query,
+                         Metrics& metrics) {
+    const typename F::Ray formRay(ray);
+    Entered<typename F::Cursor> root;
+    if (form.enterRoot(formRay, query.boxLimit(), root, metrics))
+        traverseFrom(form, root, formRay, query, metrics,
+                     TestTriangles<F, Source, Query, Metrics>{form, source, ray, query, metrics});
 }
 
 }  // namespace bvhio::HWY_NAMESPACE

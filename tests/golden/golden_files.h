@@ -99,9 +99,18 @@ inline BvhxFile shuffledGrid() {
 }
 
 /// A file with its tree in another form.
-inline BvhxFile inForm(BvhxFile file, std::string_view form) {
-    file.bvh = choose(forms(), "form", form).function(file.scene, decode(file.bvh), {});
+inline BvhxFile inForm(BvhxFile file, std::string_view form, const EncodeOptions& options = {}) {
+    file.bvh = choose(forms(), "form", form).function(file.scene, decode(file.bvh), options);
     return file;
+}
+
+/// A file with its tree in two levels.
+inline BvhxFile inTwoLevels(BvhxFile file, TlasForm tlas, BlasForm blas, uint32_t blasSize) {
+    EncodeOptions options;
+    options.tlasForm = tlas;
+    options.blasForm = blas;
+    options.blasSize = blasSize;
+    return inForm(std::move(file), "two-level", options);
 }
 
 inline std::vector<GoldenFile> goldenFiles() {
@@ -118,6 +127,10 @@ inline std::vector<GoldenFile> goldenFiles() {
             {"grid_topology_zstd", grid(), {.codec = "zstd", .nodes = NodeEncoding::topology}},
             {"grid_shuffled_topology", shuffledGrid(), {.nodes = NodeEncoding::topology}},
             {"split_triangle_topology", splitTriangle(), {.nodes = NodeEncoding::topology}},
+            {"two_triangles_two_level", inTwoLevels(twoTriangles(), TlasForm::aabb, BlasForm::ssh, 2), {}},
+            {"two_leaves_two_level", inTwoLevels(twoTriangles(), TlasForm::aabb, BlasForm::aabb, 1), {}},
+            {"grid_aabb_over_ssh", inTwoLevels(grid(), TlasForm::aabb, BlasForm::ssh, 9), {}},
+            {"grid_aabb_over_aabb", inTwoLevels(grid(), TlasForm::aabb, BlasForm::aabb, 9), {}},
             {"one_leaf", oneLeaf(), {}},
             {"split_triangle", splitTriangle(), {}}};
 }

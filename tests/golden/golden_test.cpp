@@ -64,7 +64,8 @@ TEST(Golden, workedBytesOfThePagesAreTrue) {
                                      {"chunks", ""},
                                      {"aabb", ""},
                                      {"topology", "_topology"},
-                                     {"ssh", "_ssh"}}) {
+                                     {"ssh", "_ssh"},
+                                     {"two-level", "_two_level"}}) {
         const std::string file = fileText("tests/golden/v1/two_triangles" + form + ".bvhx");
         std::istringstream text(fileText("format-spec/" + page + ".md"));
         int quoted = 0;

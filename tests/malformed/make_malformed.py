@@ -306,6 +306,49 @@ simple(4001, "ssh_infinite_root", lambda f: f.patch("FORM", 20, "f", float("inf"
 simple(4002, "ssh_plane_outside", lambda f: f.patch("NODE", 8 * 2, "f", 100 if word(f, 2) & 7 > 2 else -100), SSH)
 simple(4003, "ssh_triangle_outside", lambda f: f.patch("NODE", 8 * 3 + 4, "I", word(f, 3) & ~7 | 5).patch("NODE", 8 * 3, "f", 1.5), SSH)
 
+# --- the two-level form. two_triangles_two_level: one BLAS, in the ssh form; two_leaves_two_level: two BLASes of a leaf each, in aabb
+TWO, TWO_LEAVES = "two_triangles_two_level", "two_leaves_two_level"
+
+
+def blas_word(f, node):
+    return struct.unpack_from("<I", f["BLAS"].raw, 8 * node + 4)[0]
+
+
+def two_level_case(clause, name, chunk, offset, fmt, *values, base=TWO):
+    simple(clause, "two_level_" + name, lambda f: f.patch(chunk, offset, fmt, *values), base)
+
+
+two_level_case(2006, "reserved_12", "FORM", 12, "I", 1)
+two_level_case(2006, "reserved_32", "FORM", 32, "B", 1)
+two_level_case(2010, "tlas_form", "FORM", 0, "4s", b"ssh ")
+two_level_case(2010, "blas_form", "FORM", 4, "4s", b"best")
+two_level_case(2011, "no_size", "FORM", 8, "I", 0)
+two_level_case(2011, "size_65536", "FORM", 8, "I", 65536)
+two_level_case(2011, "no_slots", "FORM", 16, "Q", 0)
+two_level_case(2011, "odd_slots", "FORM", 16, "Q", 3)
+two_level_case(2011, "too_many_slots", "FORM", 16, "Q", 6)
+two_level_case(2011, "slots_2_63", "FORM", 16, "Q", 2**63)
+two_level_case(2011, "no_blas", "FORM", 24, "Q", 0)
+two_level_case(2011, "too_many_blases", "FORM", 24, "Q", 3)
+simple(2011, "two_level_ssh_references", lambda f: f.patch("TREE", 16, "Q", 2**25 + 1), TWO)
+for kind in ("FORM", "TLAS", "ROOT", "BLAS", "PRIM"):
+    simple(2005, "two_level_size_of_" + kind.lower(), lambda f, k=kind: f.replace(k, f[k].raw + bytes(4)), TWO)
+    simple(2002, "two_level_no_" + kind.lower(), lambda f, k=kind: f.chunks.remove(f[k]), TWO)
+two_level_case(3001, "slot_1", "TLAS", 32, "f", -0.0)
+two_level_case(3002, "tlas_child", "TLAS", 24, "I", 4, base=TWO_LEAVES)
+two_level_case(3002, "tlas_own_child", "TLAS", 24, "I", 0, base=TWO_LEAVES)
+two_level_case(3002, "aabb_root", "ROOT", 0, "2I", 0, 0, base=TWO_LEAVES)
+simple(3002, "two_level_ssh_root", lambda f: f.patch("ROOT", 0, "I", f["ROOT"].raw[0] & 31 | 1 << 5), TWO)
+simple(3002, "two_level_own_child", lambda f: f.patch("BLAS", 8 + 4, "I", blas_word(f, 1) & 7), TWO)
+simple(3003, "two_level_no_parent", lambda f: f.patch("ROOT", 0, "I", 3 << 3 | 1 << 30), TWO)
+two_level_case(3004, "count_2", "TLAS", 28, "I", 2)
+two_level_case(3004, "no_such_blas", "TLAS", 24, "I", 1)
+two_level_case(3005, "same_blas", "TLAS", 3 * NODE + FIRST, "I", 0, base=TWO_LEAVES)
+simple(3010, "two_level_root_side", lambda f: f.patch("ROOT", 0, "I", f["ROOT"].raw[0] | 1), TWO)
+simple(3010, "two_level_side", lambda f: f.patch("BLAS", 4, "I", blas_word(f, 0) | 7), TWO)
+simple(4002, "two_level_plane_outside", lambda f: f.patch("BLAS", 0, "f", 100 if blas_word(f, 0) & 7 > 2 else -100), TWO)
+two_level_case(4001, "infinite_box", "TLAS", 12, "f", float("inf"))
+two_level_case(4003, "triangle_outside", "TLAS", 20, "f", 1.5)
 # --- the aabb form as topology. two_triangles_topology: node 0 is inner, nodes 2 and 3 are leaves of one entry: a byte behind the header
 TOPOLOGY, SHUFFLED, SPLIT = "two_triangles_topology", "grid_shuffled_topology", "split_triangle_topology"
 simple(2002, "topology_and_nodes", lambda f: f.chunks.insert(f.index("PRIM") + 1, Chunk(b"TOPO", 1, bytes(65))))

@@ -109,7 +109,7 @@ struct CommandLine::Parser {
             value = text;
         };
         add(names, fileName.empty() ? "NAME" : "NAME|" + fileName, list, set,
-            [&value] { return Report(value); });
+            [&value] { return value.empty() ? Report() : Report(value); });
     }
 
     /// The names of all options, for "did you mean".

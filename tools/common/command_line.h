@@ -57,7 +57,7 @@ class CommandLine {
     void flag(const std::string& names, bool& value, const std::string& help);
     /// --NAME and --no-NAME, the last one given counts; options() remembers it as NAME.
     void toggle(const std::string& name, bool& value, const std::string& help);
-    /// One of `values`; a misspelt one is refused with the nearest.
+    /// One of `values`; a misspelt one is refused with the nearest. An empty default stands for none.
     void choice(const std::string& names, std::string& value, const std::vector<NamedValue>& values,
                 const std::string& help);
     /// One of `values` or any text with a dot or a slash in it: a file.

@@ -1,0 +1,72 @@
+// The two-level form: the top of the tree (TLAS) in one form, and below each of its leaves a small tree
+// (BLAS) in another, all BLASes in one array. After the two-level MVH of P. Bauszat, M. Eisemann and M.
+// Magnor, "The Minimal Bounding Volume Hierarchy", VMV 2010, whose top has full nodes and whose bottom has
+// their minimal ones: the few nodes that every ray meets may be large, the many that few rays meet are small.
+//
+// Departures: either level may be in several forms, a BLAS takes over its root's box from the leaf above it,
+// and the tree is cut where subtrees have at most a given number of primitives.
+#pragma once
+
+#include <array>
+#include <type_traits>
+#include <variant>
+
+#include "compress/blases.h"
+#include "compress/tlas.h"
+
+namespace bvhio {
+
+class TwoLevelForm {
+  public:
+    static constexpr std::string_view kName = "two-level";
+    static constexpr std::string_view kSummary =
+        "a top level over many small trees, each in a form of its own";
+
+    /// In the order of TlasForm and BlasForm.
+    using Tlas = std::variant<AabbTlas>;
+    using Blases = std::variant<SshBlases, AabbBlases>;
+
+    /// Leaves of `tlas` have one entry each: the index of a BLAS. As in format-spec/two-level.md.
+    TwoLevelForm(Tlas tlas, Blases blases, SharedArray<uint32_t> primitives, uint32_t blasSize)
+        : tlas_(std::move(tlas)),
+          blases_(std::move(blases)),
+          primitives_(std::move(primitives)),
+          blasSize_(blasSize) {}
+
+    /// O(n). Throws Error{unsupported} where the forms of the levels do.
+    static TwoLevelForm encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options);
+
+    /// The nodes of the top level, those of the bottom level behind them.
+    Bvh decode() const;
+    const Tlas& tlas() const { return tlas_; }
+    const Blases& blases() const { return blases_; }
+    const SharedArray<uint32_t>& primitives() const { return primitives_; }
+    EncodeOptions options() const;
+    size_t tlasBytes() const;
+    size_t nodeBytes() const;
+
+  private:
+    Tlas tlas_;
+    Blases blases_;
+    SharedArray<uint32_t> primitives_;
+    uint32_t blasSize_;
+};
+static_assert(StoredForm<TwoLevelForm>);
+
+namespace detail {
+template <class... Levels>
+constexpr std::array<std::string_view, sizeof...(Levels)> formNames(const std::variant<Levels...>*) {
+    return {Levels::Form::kName...};
+}
+}  // namespace detail
+
+/// The names of the forms that a level can be in, by TlasForm or BlasForm.
+template <class LevelForm>
+std::span<const std::string_view> levelForms() {
+    using Level =
+        std::conditional_t<std::is_same_v<LevelForm, TlasForm>, TwoLevelForm::Tlas, TwoLevelForm::Blases>;
+    static constexpr auto kNames = detail::formNames(static_cast<const Level*>(nullptr));
+    return kNames;
+}
+
+}  // namespace bvhio

@@ -1,0 +1,64 @@
+// Traversal of the two-level form: the one loop twice. A leaf of the top level is a root of the bottom level,
+// from which the same loop goes on. The order in which nodes are met is that of one stack, since what was
+// pushed earlier waits until a subtree is done. Per target, like trace/traverse.h.
+#if defined(BVHIO_TRACE_TRAVERSE_TWO_LEVEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BVHIO_TRACE_TRAVERSE_TWO_LEVEL_H
+#undef BVHIO_TRACE_TRAVERSE_TWO_LEVEL_H
+#else
+#define BVHIO_TRACE_TRAVERSE_TWO_LEVEL_H
+#endif
+
+#include "compress/two_level_form.h"
+#include "trace/metrics.h"
+#include "trace/traverse.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bvhio::HWY_NAMESPACE {
+
+/// Visits leaves of the top level: walks through the BLAS there.
+template <class Tlas, class Blases, class Source, class Query, class Metrics>
+struct TraverseBlas {
+    const Tlas& tlas;
+    const Blases& blases;
+    const Source& source;
+    const PreparedRay& ray;
+    const typename Tlas::Ray& tlasRay;
+    const typename Blases::Ray& blasRay;
+    Query& query;
+    Metrics& metrics;
+
+    HWY_INLINE bool operator()(const Entered<typename Tlas::Cursor>& leaf) const {
+        const auto root = blases.root(tlas.primitiveRange(leaf.cursor),
+                                      tlas.entry(leaf, tlasRay, query.boxLimit()), metrics);
+        return traverseFrom(
+            blases, root, blasRay, query, metrics,
+            TestTriangles<Blases, Source, Query, Metrics>{blases, source, ray, query, metrics});
+    }
+};
+
+/// Not inlined: there is one for each pair of forms, and the choice is made once a ray.
+template <class Tlas, class Blases, class Source, class Query, class Metrics>
+HWY_NOINLINE void traverseLevels(const Tlas& tlas, const Blases& blases, const Source& source,
+                                 const PreparedRay& ray, Query& query, Metrics& metrics) {
+    const typename Tlas::Ray tlasRay(ray);
+    Entered<typename Tlas::Cursor> root;
+    if (!tlas.enterRoot(tlasRay, query.boxLimit(), root, metrics)) return;
+    const typename Blases::Ray blasRay(ray);
+    MetricsBehind<Metrics> behind{metrics, tlas.form().nodeBytes()};
+    traverseFrom(tlas, root, tlasRay, query, metrics,
+                 TraverseBlas<Tlas, Blases, Source, Query, MetricsBehind<Metrics>>{
+                     tlas, blases, source, ray, tlasRay, blasRay, query, behind});
+}
+
+template <class Source, class Query, class Metrics>
+HWY_INLINE void traverse(const TwoLevelForm& form, const Source& source, const PreparedRay& ray, Query& query,
+                         Metrics& metrics) {
+    std::visit([&](const auto& tlas,
+                   const auto& blases) { traverseLevels(tlas, blases, source, ray, query, metrics); },
+               form.tlas(), form.blases());
+}
+
+}  // namespace bvhio::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -130,7 +130,7 @@ ExitCode compress(CommandLine& line) {
             return ExitCode::findings;
         }
         if (chosen != nullptr) {
-            form = chosen->candidate.form;
+            search.assignTo(line);
             encoding = chosen->candidate.options;
         }
         extra["search"] = search.report();

@@ -272,6 +272,12 @@ std::vector<std::string> CommandLine::given() const {
     return names;
 }
 
+void CommandLine::assign(const std::string& name, const std::string& value) {
+    parser_->app.get_option(name)->clear();
+    parser_->app.get_option(name)->add_result(value);
+    parser_->app.get_option(name)->run_callback();
+}
+
 Report CommandLine::options() const {
     Report options = Report::object();
     for (const auto& option : parser_->recorded)

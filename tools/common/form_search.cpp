@@ -86,19 +86,17 @@ std::string FormSearch::refusal() const {
            " with " + number(value(*nearest));
 }
 
+void FormSearch::assignTo(CommandLine& line) const {
+    line.assign("--form", std::string(chosen_->candidate.form));
+    std::istringstream words{std::string(chosen_->candidate.parameters)};
+    for (std::string name, value; words >> name >> value;) line.assign(name, value);
+}
+
 Report FormSearch::recordedOptions(const CommandLine& line) const {
     Report options = line.options();
-    if (chosen_ == nullptr) {
-        for (const auto* names : {&kLimits, &kSample})
-            for (const std::string& name : *names) options.erase(name.substr(2));
-        return options;
-    }
-    options["form"] = chosen_->candidate.form;
-    std::istringstream words{std::string(chosen_->candidate.parameters)};
-    for (std::string name, value; words >> name >> value;) {
-        const Report parsed = Report::parse(value, nullptr, false);
-        options[name.substr(2)] = parsed.is_discarded() ? Report(value) : parsed;
-    }
+    if (chosen_ != nullptr) return options;
+    for (const auto* names : {&kLimits, &kSample})
+        for (const std::string& name : *names) options.erase(name.substr(2));
     return options;
 }
 

@@ -32,8 +32,9 @@ class FormSearch {
     /// One line: which limit nothing keeps, and what comes nearest.
     std::string refusal() const;
 
-    /// The command line's options as provenance tells them: with the chosen form and its parameters, and
-    /// without the search's where it chose nothing.
+    /// Sets the chosen form and its parameters as if the command line had them: so provenance tells them.
+    void assignTo(CommandLine& line) const;
+    /// The command line's options as provenance tells them: without the search's where it chose nothing.
     Report recordedOptions(const CommandLine& line) const;
     /// For the pass' report: chosen, and candidates[] with the keys of the table.
     Report report() const;

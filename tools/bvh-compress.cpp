@@ -112,8 +112,12 @@ ExitCode compress(CommandLine& line) {
     Pass pass(line, "INPUT", "the container; - or nothing: standard input");
     search.prepare(line, {"--codec", "--level", "--geometry", "--position-bits"});
 
-    EncodeOptions encoding;
-    twoLevel.addTo(encoding, form);
+    const auto givenEncoding = [&] {
+        EncodeOptions options;
+        twoLevel.addTo(options, form);
+        return options;
+    };
+    EncodeOptions encoding = givenEncoding();
     const bool topology = codec == "topology";
     if (topology && (form != AabbForm::kName || search.choosesForm()))
         throw Error(ErrorKind::usage,
@@ -131,7 +135,7 @@ ExitCode compress(CommandLine& line) {
         }
         if (chosen != nullptr) {
             search.assignTo(line);
-            encoding = chosen->candidate.options;
+            encoding = givenEncoding();
         }
         extra["search"] = search.report();
     }

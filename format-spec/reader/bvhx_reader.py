@@ -69,6 +69,20 @@ def decode_zstd(stored, raw_size):
     return bytes(raw)
 
 
+def decode_numbers(stored, raw_size, stride):
+    """Codecs 2 and 3 of container.md 6."""
+    reject_if(raw_size % 4 != 0, 1018, "no whole count of numbers")
+    planes, raw = decode_zstd(stored, raw_size), bytearray()
+    for at in range(0, raw_size, BLOCK):
+        block, numbers = planes[at:at + BLOCK], [0] * stride
+        count = len(block) // 4
+        for i in range(count):
+            folded = sum(block[plane * count + i] << 8 * plane for plane in range(4))
+            numbers.append((numbers[-stride] + (-(folded >> 1) - 1 if folded & 1 else folded >> 1)) % 2**32)
+        raw += struct.pack(f"<{count}I", *numbers[stride:])
+    return bytes(raw)
+
+
 class Chunk:
     def __init__(self, kind, flags, codec, raw_size, stored_size, offset, raw):
         self.type, self.flags, self.codec, self.offset, self.raw = kind, flags, codec, offset, raw
@@ -100,17 +114,22 @@ def read_container(data):
         reject_if(any(not (bytes([b]).isalnum() or b == 32) for b in type_bytes), 1013, f"type {type_bytes}")
         kind = type_bytes.decode("ascii")
         reject_if(reserved != 0 or any(header[40:56]) or flags >= 8, 1012, f"{kind}: reserved field or flag")
-        reject_if(codec > 1, 1014, f"{kind}: codec {codec}")
+        reject_if(codec > 3, 1014, f"{kind}: codec {codec}")
         reject_if(raw_size > MAX_SIZE or stored_size > MAX_SIZE, 1015, f"{kind}: too large")
         reject_if(codec == 0 and raw_size != stored_size, 1015, f"{kind}: two sizes")
-        reject_if(codec == 1 and not 1 <= raw_size <= MAX_EXPANSION * stored_size, 1015, f"{kind}: expands too much")
+        reject_if(codec > 0 and not 1 <= raw_size <= MAX_EXPANSION * stored_size, 1015, f"{kind}: expands too much")
         end = offset + 64 + stored_size
         padded = (end + 63) // 64 * 64
         stored = data[offset + 64:end]
         reject_if(len(data) < padded, 1010, f"{kind}: cut")
         reject_if(any(data[end:padded]), 1017, f"{kind}: padding")
         reject_if(digest(stored) != checksum, 1016, f"{kind}: payload checksum")
-        raw = decode_zstd(stored, raw_size) if codec == 1 else stored
+        if codec == 0:
+            raw = stored
+        elif codec == 1:
+            raw = decode_zstd(stored, raw_size)
+        else:
+            raw = decode_numbers(stored, raw_size, 1 if codec == 2 else 3)
         offset = padded
         if kind == "END ":
             break

@@ -33,8 +33,8 @@ const ChunkKind* findChunkKind(uint32_t type) {
     return nullptr;
 }
 
-void writeChunk(ContainerWriter& writer, uint32_t type, std::span<const std::byte> payload) {
-    writer.write(type, findChunkKind(type)->flags, payload);
+void writeChunk(ContainerWriter& writer, uint32_t type, std::span<const std::byte> payload, Numbers numbers) {
+    writer.write(type, findChunkKind(type)->flags, payload, numbers);
 }
 
 const ChunkHeader& ChunkSequence::peek() {

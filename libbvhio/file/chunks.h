@@ -38,10 +38,15 @@ std::span<const ChunkKind> chunkKinds();
 const ChunkKind* findChunkKind(uint32_t type);
 
 /// Writes a chunk of known type with its flags.
-void writeChunk(ContainerWriter& writer, uint32_t type, std::span<const std::byte> payload);
+void writeChunk(ContainerWriter& writer, uint32_t type, std::span<const std::byte> payload,
+                Numbers numbers = Numbers::none);
 template <class T>
 void writeArrayChunk(ContainerWriter& writer, uint32_t type, const SharedArray<T>& array) {
-    writeChunk(writer, type, std::as_bytes(std::span<const T>(array)));
+    constexpr bool kTriples = std::is_same_v<T, Vec3> || std::is_same_v<T, TriangleIndices>;
+    constexpr Numbers kNumbers = kTriples                      ? Numbers::triples
+                                 : std::is_same_v<T, uint32_t> ? Numbers::single
+                                                               : Numbers::none;
+    writeChunk(writer, type, std::as_bytes(std::span<const T>(array)), kNumbers);
 }
 
 /// Reads known chunks in the order that the caller asks for, and gathers the unknown ones between them.

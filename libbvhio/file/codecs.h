@@ -25,8 +25,21 @@ struct CodecFunctions {
 };
 using Codec = Choice<CodecFunctions>;
 
-/// All codecs; the first, none, stores payloads as they are.
+/// All codecs to choose from; the first, none, stores payloads as they are.
 std::span<const Codec> codecs();
+
+/// What a payload is known to be: an array of 32-bit numbers, each alone or in threes.
+enum class Numbers { none, single, triples };
+
+struct EncodedPayload {
+    uint32_t codec;
+    AlignedVector<std::byte> bytes;
+};
+
+/// Nothing when the payload is better stored as it is. With zstd, numbers are coded by their differences
+/// where that is smaller, which is a codec of its own.
+std::optional<EncodedPayload> encodePayload(const Codec& codec, int level, std::span<const std::byte> raw,
+                                            Numbers numbers);
 
 /// The codec with this number in chunk headers, or nullptr.
 const Codec* findCodec(uint32_t id);

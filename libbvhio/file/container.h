@@ -98,12 +98,14 @@ class ContainerWriter {
     /// Writes the file's header. `level` 0 is the codec's default.
     ContainerWriter(std::ostream& out, const Codec& codec, int level);
 
-    void write(uint32_t type, uint32_t flags, std::span<const std::byte> payload);
+    void write(uint32_t type, uint32_t flags, std::span<const std::byte> payload,
+               Numbers numbers = Numbers::none);
     /// Writes END and flushes; returns the content hash.
     uint64_t finish();
 
   private:
-    void writeChunk(uint32_t type, uint32_t flags, std::span<const std::byte> payload, bool compress);
+    void writeChunk(uint32_t type, uint32_t flags, std::span<const std::byte> payload,
+                    const std::optional<EncodedPayload>& encoded);
     void put(std::span<const std::byte> bytes);
 
     std::ostream& out_;

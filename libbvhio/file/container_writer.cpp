@@ -44,22 +44,21 @@ ContainerWriter::ContainerWriter(std::ostream& out, const Codec& codec, int leve
     put(header.bytes());
 }
 
-void ContainerWriter::write(uint32_t type, uint32_t flags, std::span<const std::byte> payload) {
-    writeChunk(type, flags, payload, true);
+void ContainerWriter::write(uint32_t type, uint32_t flags, std::span<const std::byte> payload,
+                            Numbers numbers) {
+    writeChunk(type, flags, payload, encodePayload(codec_, level_, payload, numbers));
     ++chunks_;
 }
 
 void ContainerWriter::writeChunk(uint32_t type, uint32_t flags, std::span<const std::byte> payload,
-                                 bool compress) {
-    std::optional<AlignedVector<std::byte>> encoded;
-    if (compress && !payload.empty()) encoded = codec_.function.encode(payload, level_);
-    const std::span<const std::byte> stored = encoded ? std::span<const std::byte>(*encoded) : payload;
+                                 const std::optional<EncodedPayload>& encoded) {
+    const std::span<const std::byte> stored = encoded ? std::span<const std::byte>(encoded->bytes) : payload;
 
     const uint64_t rawDigest = digest(payload);
     ByteWriter header;
     header.u32(type);
     header.u32(flags);
-    header.u32(encoded ? codec_.function.id : 0);
+    header.u32(encoded ? encoded->codec : 0);
     header.zeros(4);
     header.u64(payload.size());
     header.u64(stored.size());
@@ -80,7 +79,7 @@ uint64_t ContainerWriter::finish() {
     end.u64(chunks_);
     end.u64(written_ + 2 * kHeaderSize);  // END's header and its padded payload
     end.zeros(8);
-    writeChunk(kEndType, kCritical, end.bytes(), false);
+    writeChunk(kEndType, kCritical, end.bytes(), std::nullopt);
     out_.flush();
     if (!out_) throw Error(ErrorKind::io, "cannot write the output");
     return hash;

@@ -67,6 +67,7 @@ class File:
             if kind == b"END ":
                 break
             stored = data[at + 64:at + 64 + size]
+            assert codec < 2, "no case starts from a file with differences"
             raw = zstandard.decompress(stored, raw_size) if codec else stored
             self.chunks.append(Chunk(kind, flags, raw, codec, stored))
             at += 64 + size + (-size % 64)
@@ -156,7 +157,7 @@ simple(1012, "reserved_12", lambda f: set_field(f["VERT"], reserved12=1))
 simple(1012, "reserved_40", lambda f: set_field(f["VERT"], reserved40=b"\1" + bytes(15)))
 simple(1012, "flag_3", lambda f: set_field(f["VERT"], flags=15))
 simple(1013, "type", lambda f: set_field(f["VERT"], kind=b"V\xE9RT"))
-simple(1014, "codec_2", lambda f: set_field(f["VERT"], codec=2))
+simple(1014, "codec_4", lambda f: set_field(f["VERT"], codec=4))
 simple(1015, "none_with_two_sizes", lambda f: set_field(f["VERT"], raw_size=24))
 simple(1015, "over_2_48", lambda f: set_field(f["VERT"], raw_size=2**63, stored_size=2**63))
 simple(1015, "zstd_of_nothing", lambda f: f.chunks.insert(1, Chunk(b"xNEW", 0, b"", 1, zstandard.compress(b""))))
@@ -180,6 +181,8 @@ def zstd_case(name, make):
     simple(1018, name, damage)
 
 
+simple(1018, "numbers_cut", lambda f: f.chunks.insert(1, Chunk(b"xNEW", 0, bytes(5), 2, zstandard.compress(bytes(5)))))
+simple(1018, "numbers_of_no_frame", lambda f: f.chunks.insert(1, Chunk(b"xNEW", 0, bytes(8), 3, bytes(8))))
 zstd_case("no_zstd", lambda raw: raw)
 zstd_case("cut_frame", lambda raw: zstandard.compress(raw)[:-1])
 def reserved_block(raw):

@@ -7,6 +7,7 @@
 #include "common/run_tool.h"
 #include "compress/exact_boxes.h"
 #include "file/codecs.h"
+#include "scene/scene_order.h"
 
 using namespace bvhio;
 
@@ -97,8 +98,32 @@ class TwoLevelOptions {
     uint32_t blasSize_ = 0;
 };
 
+const std::vector<NamedValue> kTriangleOrders = {
+    {"source", "as they are"},
+    {"leaf", "each geometry's as leaves have them; they keep their ids"},
+};
+const std::vector<NamedValue> kVertexOrders = {
+    {"auto", "as they are; with draco, whichever is smaller"},
+    {"source", "as they are"},
+    {"use", "as triangles name them first"},
+};
+
+/// Puts each geometry's triangles in the order in which the tree's leaves have them.
+void orderTrianglesByLeaves(BvhxFile& file) {
+    Bvh bvh = decode(file.bvh);
+    ReorderedScene reordered = withTrianglesInOrder(file.scene, bvh.primitives);
+    AlignedVector<uint32_t> primitives(bvh.primitives.begin(), bvh.primitives.end());
+    for (uint32_t& primitive : primitives) primitive = reordered.newIndex[primitive];
+    bvh.primitives = std::move(primitives);
+    file.scene = std::move(reordered.scene);
+    file.bvh = choose(forms(), "form", formNameOf(file.bvh)).function(file.scene, bvh, optionsOf(file.bvh));
+    file.unknownChunks.clear();  // they may know triangles by their old indices
+}
+
 ExitCode compress(CommandLine& line) {
-    std::string form(forms()[0].name), codec = "zstd", geometry(kGeometries[0].name);
+    std::string form(forms()[0].name), codec = "zstd", geometry(kGeometries[0].name),
+                                       triangleOrder(kTriangleOrders[0].name),
+                                       vertexOrder(kVertexOrders[0].name);
     uint32_t level = 0, positionBits = 16;
     line.choice("--form", form, namedValues(forms()), "how nodes are stored");
     TwoLevelOptions twoLevel(line);
@@ -107,10 +132,14 @@ ExitCode compress(CommandLine& line) {
     line.number("--level", level, 0, 22, "the codec's effort; 0: its own default");
     line.choice("--geometry", geometry, kGeometries, "how the triangles are stored");
     line.number("--position-bits", positionBits, 1, 30, "bits a coordinate, for draco");
+    line.choice("--triangle-order", triangleOrder, kTriangleOrders,
+                "which triangles stand beside each other");
+    line.choice("--vertex-order", vertexOrder, kVertexOrders, "which vertices stand beside each other");
     line.beginPlumbing();
     search.declareOutput(line);
     Pass pass(line, "INPUT", "the container; - or nothing: standard input");
-    search.prepare(line, {"--codec", "--level", "--geometry", "--position-bits"});
+    search.prepare(
+        line, {"--codec", "--level", "--geometry", "--position-bits", "--triangle-order", "--vertex-order"});
 
     const auto givenEncoding = [&] {
         EncodeOptions options;
@@ -145,12 +174,15 @@ ExitCode compress(CommandLine& line) {
         file.bvh = choose(forms(), "form", form).function(file.scene, treeFor(form, file), encoding);
         dropChunksThatDoNotSurvive(file, Change::reordered);
     }
+    if (triangleOrder == "leaf") orderTrianglesByLeaves(file);
+    if (vertexOrder == "use") file.scene = withVerticesByUse(file.scene);
     WriteOptions options;
     options.codec = topology ? "zstd" : codec;
     options.nodes = topology ? NodeEncoding::topology : NodeEncoding::plain;
     options.codecLevel = int(level);
     options.geometry = geometry == "draco" ? GeometryEncoding::draco : GeometryEncoding::raw;
     options.dracoPositionBits = int(positionBits);
+    options.dracoVertices = vertexOrder == "auto" ? VertexOrder::smaller : VertexOrder::kept;
     pass.finish(file, options, "compress", extra);
     return ExitCode::done;
 }

@@ -41,12 +41,17 @@ enum class GeometryEncoding { raw, draco };
 /// Nodes as the form has them, or their topology alone: reading it back fits the same boxes to the triangles.
 enum class NodeEncoding { plain, topology };
 
+/// Vertices as they are, or with Draco in whichever order is smaller: that or the one in which triangles name
+/// them.
+enum class VertexOrder { kept, smaller };
+
 struct WriteOptions {
     std::string codec = "none";  // a row of codecs()
     int codecLevel = 0;          // 0 = the codec's default
     NodeEncoding nodes = NodeEncoding::plain;
     GeometryEncoding geometry = GeometryEncoding::raw;
     int dracoPositionBits = 16;
+    VertexOrder dracoVertices = VertexOrder::kept;
 };
 
 /// Reads a file: mapped when `path` is a regular file, so that arrays stored with codec none are used in

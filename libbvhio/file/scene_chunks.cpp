@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "file/utf8.h"
 #include "scene/draco_mesh.h"
+#include "scene/scene_order.h"
 
 namespace bvhio {
 namespace {
@@ -115,6 +116,12 @@ void findBad(size_t count, size_t maxFound, const AnyBad& anyBad, const Report& 
 StoredScene storeScene(const Scene& scene, const WriteOptions& options) {
     if (options.geometry == GeometryEncoding::raw) return {scene, {}};
     StoredScene stored{scene, encodeDraco(scene.vertices, scene.triangles, options.dracoPositionBits)};
+    if (options.dracoVertices == VertexOrder::smaller) {
+        const Scene byUse = withVerticesByUse(scene);
+        std::vector<std::byte> draco =
+            encodeDraco(byUse.vertices, byUse.triangles, options.dracoPositionBits);
+        if (draco.size() < stored.draco.size()) stored.draco = std::move(draco);
+    }
     DracoMesh mesh = decodeDraco(stored.draco, "the encoded geometry");
     stored.scene.vertices = std::move(mesh.vertices);
     stored.scene.triangles = std::move(mesh.triangles);

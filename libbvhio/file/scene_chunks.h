@@ -13,7 +13,8 @@ struct StoredScene {
     std::vector<std::byte> draco;
 };
 
-/// Encodes a scene: with Draco, vertices move to where they will be decoded; triangles and their order stay.
+/// Encodes a scene: with Draco, vertices move to where they will be decoded, and into the order that the
+/// options say; triangles and their order stay.
 StoredScene storeScene(const Scene& scene, const WriteOptions& options);
 void writeScene(ContainerWriter& writer, const StoredScene& stored);
 

@@ -57,7 +57,7 @@ void refit(Pass& pass, const std::string& old) {
     } catch (const Error& error) {
         throw withName(pass.input(), error);
     }
-    const size_t references = decode(file.bvh).primitives.size();
+    const size_t references = std::visit([](const auto& form) { return form.primitives().size(); }, file.bvh);
     if (references > file.scene.triangles.size())
         logInfo(
             "boxes of triangles that spatial splits cut grow to whole triangles: build anew for tight ones");

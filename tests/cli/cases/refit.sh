@@ -31,6 +31,11 @@ cat moved.obj | bvh-build --refit old.bvhx | cmp - refitted.bvhx
 cat old.bvhx | bvh-build --refit - moved.obj | cmp - refitted.bvhx
 { cube && echo 'f 1 1 2'; } >flat.obj
 bvh-build flat.obj --on-degenerate drop | bvh-build flat.obj --refit - | bvh-stats --format json | json primitives
+# Triangles and vertices in another order than the source's are found again.
+bvh-build grid.obj | bvh-compress --triangle-order leaf --vertex-order use -o reordered.bvhx
+bvh-build moved.obj --refit reordered.bvhx -o refitted.bvhx
+bvh-stats refitted.bvhx --check
+bvh-trace refitted.bvhx --rays random --count 3000 --compare anew.bvhx >/dev/null || echo "other hits"
 # Boxes of split triangles become whole.
 bvh-build grid.obj --builder spatial --split-budget 1 --intersection-cost 9 -o split.bvhx
 bvh-build moved.obj --refit split.bvhx -o refitted.bvhx

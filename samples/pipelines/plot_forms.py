@@ -4,7 +4,8 @@
 Usage: plot_forms.py TABLE.csv... -o PLOT.png    (any format that matplotlib writes: .png, .svg, .pdf)
 
 Needs matplotlib (Debian: python3-matplotlib; samples/setup.sh plots). A panel is called by its file's name. The line joins
-the forms that no other beats in both size and time: the nearer to the lower left corner the better.
+the forms that no other beats in both size and time, with the values of their parameters: the nearer to the lower left
+corner the better.
 """
 import argparse
 import csv
@@ -16,6 +17,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 COLOURS = ["#222222", "#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb"]
+
+TICKS_OF_SIZE = [2 ** i for i in range(-6, 8)]
+TICKS_OF_TIME = [0.6, 0.8, 1, 1.2, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024]
 
 
 def read(path):
@@ -36,14 +40,13 @@ def draw(axis, title, rows, colours):
         if row["status"] == "chosen":
             axis.scatter(row["x"], row["y"], s=120, facecolors="none", edgecolors="black", zorder=2)
         if row["status"] != "dominated" and row["parameters"]:
-            words = row["parameters"].split()
-            axis.annotate(" ".join(word.lstrip("-") for word in words), (row["x"], row["y"]), fontsize=6,
+            axis.annotate(" ".join(row["parameters"].split()[1::2]), (row["x"], row["y"]), fontsize=6,
                           xytext=(4, 4), textcoords="offset points")
-    axis.set_xscale("log")
-    axis.set_yscale("log")
-    axis.yaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
-    axis.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
-    axis.xaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+    for scale, ticks in ((axis.xaxis, TICKS_OF_SIZE), (axis.yaxis, TICKS_OF_TIME)):
+        scale.axes.set(**{f"{scale.axis_name}scale": "log"})
+        scale.set_major_locator(matplotlib.ticker.FixedLocator(ticks))
+        scale.set_minor_locator(matplotlib.ticker.NullLocator())
+        scale.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
     axis.set_title(title, fontsize=10)
     axis.set_xlabel("node bytes per triangle")
     axis.set_ylabel("time over that of the aabb form")

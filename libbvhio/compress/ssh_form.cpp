@@ -14,23 +14,61 @@ float plane(const Aabb& box, uint32_t side) {
     return side < 3 ? box.min[int(side)] : box.max[int(side) - 3];
 }
 
-/// Moves the side of `inherited` to where `box` has it that leaves the least area, the first of equals, and
-/// returns it.
-uint32_t carve(Aabb& inherited, const Aabb& box) {
-    uint32_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    Aabb result = inherited;
-    for (const uint32_t side : {0u, 3u, 1u, 4u, 2u, 5u}) {
-        Aabb carved = inherited;
-        plane(carved, side) = plane(box, side);
-        const double area = halfArea(carved);
-        if (area < least) {
-            least = area;
-            best = side;
-            result = carved;
+/// How far inside another box a box's sides lie, by axis.
+struct Inset {
+    double low[3], high[3];
+
+    Inset(const Aabb& outer, const Aabb& inner) {
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = double(component(inner.min, axis)) - component(outer.min, axis);
+            high[axis] = double(component(outer.max, axis)) - component(inner.max, axis);
         }
     }
-    inherited = result;
+    double larger(int axis) const { return std::max(low[axis], high[axis]); }
+};
+
+/// Moves a side of `inherited` to where `node` has it, and returns it: of a leaf, the one that leaves the
+/// least area; of an inner node, the one after which its children's own planes leave the least, for what the
+/// first plane saves they need not. Of equals the first, and none that does not move, if any does: encoding a
+/// decoded tree again changes nothing.
+uint32_t carve(Aabb& inherited, const Node& node, std::span<const Node> nodes) {
+    constexpr double kOwnWeight = 0.4;  // of the node's area against its children's; by trial
+    const bool isInner = !node.isLeaf();
+    const Inset own(inherited, node.bounds);
+    const Inset children[2] = {Inset(inherited, isInner ? nodes[node.left()].bounds : node.bounds),
+                               Inset(inherited, isInner ? nodes[node.right()].bounds : node.bounds)};
+    const double extent[3] = {double(inherited.max.x) - inherited.min.x,
+                              double(inherited.max.y) - inherited.min.y,
+                              double(inherited.max.z) - inherited.min.z};
+    uint32_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        for (const bool atLow : {true, false}) {
+            const double moved = atLow ? own.low[axis] : own.high[axis];
+            if (moved == 0) continue;
+            const double left = extent[axis] - moved;
+            const double area = extent[u] * extent[v] + left * (extent[u] + extent[v]);
+            double cost = area;
+            if (isInner) {
+                cost *= kOwnWeight;
+                for (const Inset& child : children) {
+                    // What the child's best plane saves of the area, whichever axis it is on.
+                    const double same = std::max(child.low[axis] - (atLow ? moved : 0),
+                                                 child.high[axis] - (atLow ? 0 : moved));
+                    const double saved = std::max(
+                        same * (extent[u] + extent[v]),
+                        std::max(child.larger(u) * (left + extent[v]), child.larger(v) * (left + extent[u])));
+                    cost += area - saved;
+                }
+            }
+            if (cost < least) {
+                least = cost;
+                best = uint32_t(atLow ? axis : axis + 3);
+            }
+        }
+    }
+    plane(inherited, best) = plane(node.bounds, best);
     return best;
 }
 
@@ -92,7 +130,7 @@ class PairEncoder {
     SshNode at(size_t i) { return code(nodes_[i ^ swapped_[i / 2]], inherited_[i / 2]); }
 
     SshNode code(const Node& node, Aabb box) {
-        const uint32_t side = carve(box, node.bounds);
+        const uint32_t side = carve(box, node, nodes_);
         const float plane = bvhio::plane(node.bounds, side);
         if (node.isLeaf()) return SshNode::leaf(plane, side, node.first, node.primitiveCount);
         const Aabb &left = nodes_[node.left()].bounds, &right = nodes_[node.right()].bounds;

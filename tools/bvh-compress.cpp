@@ -3,6 +3,7 @@
 
 #include "common/form_search.h"
 #include "common/log.h"
+#include "common/mvh_options.h"
 #include "common/pass.h"
 #include "common/run_tool.h"
 #include "compress/exact_boxes.h"
@@ -127,6 +128,7 @@ ExitCode compress(CommandLine& line) {
     uint32_t level = 0, positionBits = 16;
     line.choice("--form", form, namedValues(forms()), "how nodes are stored");
     TwoLevelOptions twoLevel(line);
+    MvhOptions mvh(line);
     FormSearch search(line);
     line.choice("--codec", codec, codecNames(), "what squeezes the chunks");
     line.number("--level", level, 0, 22, "the codec's effort; 0: its own default");
@@ -144,6 +146,7 @@ ExitCode compress(CommandLine& line) {
     const auto givenEncoding = [&] {
         EncodeOptions options;
         twoLevel.addTo(options, form);
+        mvh.addTo(options, form);
         return options;
     };
     EncodeOptions encoding = givenEncoding();
@@ -171,6 +174,7 @@ ExitCode compress(CommandLine& line) {
     pass.recordOptions(search.recordedOptions(line));
     pass.stages().begin("compress");
     if (formNameOf(file.bvh) != form || optionsOf(file.bvh) != encoding) {
+        if (form == MvhForm::kName) logInfo("mvh builds a tree of its own from the triangles");
         file.bvh = choose(forms(), "form", form).function(file.scene, treeFor(form, file), encoding);
         dropChunksThatDoNotSurvive(file, Change::reordered);
     }

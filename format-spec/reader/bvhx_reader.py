@@ -20,6 +20,7 @@ VERSION = (1, 0)
 BLOCK = 1 << 20
 MAX_SIZE = 1 << 48
 MAX_EXPANSION = 32
+MAX_FLOAT = struct.unpack("<f", b"\xFF\xFF\x7F\x7F")[0]
 UNSUPPORTED = {1003, 1004, 1014, 2001, 2008, 2010}
 CRITICAL = 1
 
@@ -388,7 +389,53 @@ def read_two_level(chunks, slots, references):
     return nodes + below, chunks.expect("PRIM", 4 * references)
 
 
-FORMS = {b"aabb": read_aabb, b"ssh ": read_ssh, b"two ": read_two_level}
+def binary32(x):
+    """Of a sum or product of two binary32 numbers in binary64: rounding twice gives what rounding once does."""
+    try:
+        return struct.unpack("<f", struct.pack("<f", x))[0]
+    except OverflowError:
+        return math.copysign(math.inf, x)
+
+
+def read_mvh(chunks, slots, references):
+    raw = chunks.expect("FORM", 64)
+    root, (zeta, of_both), (axes, size) = struct.unpack_from("<6f", raw), struct.unpack_from("<2f", raw, 24), struct.unpack_from("<2I", raw, 32)
+    reject_if(any(raw[40:]), 2006, "FORM: reserved")
+    reject_if(not all(map(math.isfinite, root)), 4001, "FORM: box")
+    reject_if(not (0 < zeta <= binary32(0.99) and 0 < of_both <= 0.5 and 1 <= axes <= 3 and 1 <= size <= 16), 2019, "FORM")
+    leaves = (references + size - 1) // size
+    reject_if(slots != 2 * leaves, 2011, "slots")
+    words = (leaves + 7) // 8
+    nibbles = [byte >> shift & 15 for byte in chunks.expect("NODE", 4 * words) for shift in (0, 4)]
+    reject_if(any(nibbles[leaves - 1:]), 2006, "NODE: spare nibbles")
+    first_deepest = (1 << (leaves - 1).bit_length()) - 1
+    boxes, nodes = {0: (list(root), 0)}, [None, (0,) * 8]
+    for node in range(2 * leaves - 1):
+        box, turn = boxes.pop(node)
+        if node >= leaves - 1:
+            number = node - first_deepest if node >= first_deepest else node - first_deepest + leaves
+            entry = (*box, number * size, min(size, references - number * size))
+        else:
+            entry = (*box, 2 * node + 2, 0)
+            sizes = [binary32(box[a + 3] - box[a]) for a in range(3)]
+            axis = sorted(range(3), key=lambda a: -sizes[a])[turn]
+            length = min(sizes[axis], MAX_FLOAT)
+            for child in (0, 1):
+                code, cut = nibbles[node] >> 2 * child & 3, list(box)
+                part = binary32((of_both if code == 3 else zeta) * length)
+                if code & 1:
+                    cut[axis] = binary32(box[axis] + part)
+                if code & 2:
+                    cut[axis + 3] = binary32(box[axis + 3] - part)
+                boxes[2 * node + 1 + child] = (cut, (turn + 1) % axes if code == 0 else 0)
+        if node == 0:
+            nodes[0] = entry
+        else:
+            nodes.append(entry)
+    return nodes, chunks.expect("PRIM", 4 * references)
+
+
+FORMS = {b"aabb": read_aabb, b"ssh ": read_ssh, b"mvh ": read_mvh, b"two ": read_two_level}
 
 
 def check_tree(nodes, raw_primitives, slots, references, stated_depth, scene):
@@ -443,6 +490,7 @@ def read_tree(chunks, scene):
                    and slots % 2 == 0 and depth <= 96), 2011, "TREE: counts")
     for cost in (traversal, intersection):
         reject_if(not math.isfinite(cost) or math.copysign(1, cost) < 0, 2012, "SAH cost")
+    reject_if(form == b"mvh " and references != scene["triangles"], 2011, "TREE: references")
     if form == b"aabb" and chunks.next_is("PRIM"):
         nodes, primitives = read_topology(chunks, slots, references, scene["boxes"])
     else:

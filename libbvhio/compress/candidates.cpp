@@ -19,6 +19,7 @@ std::span<const EncodingCandidate> encodingCandidates() {
     static const EncodingCandidate kTable[] = {
         {"aabb", ""},
         {"ssh", ""},
+        {"mvh", ""},
         twoLevel("--tlas-form aabb --blas-form ssh --blas-size 32", TlasForm::aabb, BlasForm::ssh, 32),
     };
     return kTable;

@@ -40,12 +40,22 @@ struct NoMetrics {
     BVHIO_INLINE void popped(size_t) {}
 };
 
+/// How the mvh form divides triangles: with much choice, as its paper does (compress/mvh_build.h), or as the
+/// given tree does, if that has the form's shape; others count as best.
+enum class MvhBuild { best, paper, given };
+
 /// Forms of the two-level form's levels, the default first.
 enum class TlasForm : uint8_t { aabb };
 enum class BlasForm : uint8_t { ssh, aabb };
 
 /// What forms can be told; each takes what concerns it.
 struct EncodeOptions {
+    // mvh; 0 = as suits the tree
+    uint32_t leafSize = 4;
+    float zeta = 0, zetaOfBoth = 0;
+    uint32_t cutAxes = 0;
+    MvhBuild mvhBuild = MvhBuild::best;
+
     // two-level
     TlasForm tlasForm{};
     BlasForm blasForm{};

@@ -5,13 +5,14 @@
 #include <variant>
 
 #include "compress/aabb_form.h"
+#include "compress/mvh_form.h"
 #include "compress/ssh_form.h"
 #include "compress/two_level_form.h"
 #include "core/choice.h"
 
 namespace bvhio {
 
-using EncodedBvh = std::variant<AabbForm, SshForm, TwoLevelForm>;
+using EncodedBvh = std::variant<AabbForm, SshForm, MvhForm, TwoLevelForm>;
 
 /// A row of the table that the variant makes: a form's name, its summary and its encoder.
 using FormChoice = Choice<EncodedBvh (*)(const Scene&, const Bvh&, const EncodeOptions&)>;

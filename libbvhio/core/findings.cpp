@@ -43,6 +43,7 @@ std::span<const FindingKind> findingKinds() {
         {text, invalid, "a text is not well-formed UTF-8"},
         {draco, invalid, "the Draco geometry does not decode to the stated counts"},
         {topology, invalid, "the topology does not decode to a tree with the stated counts"},
+        {formParameter, invalid, "a parameter of the form is out of range"},
 
         {unusedSlot, invalid, "the unused node slot beside the root is not zero"},
         {childIndex, invalid, "an inner node's children are out of range, at an odd index or not behind it"},

@@ -50,6 +50,7 @@ enum class FindingId : uint32_t {
     text = 2014,
     draco = 2015,
     topology = 2016,
+    formParameter = 2019,
 
     unusedSlot = 3001,
     childIndex = 3002,

@@ -65,6 +65,7 @@ TEST(Golden, workedBytesOfThePagesAreTrue) {
                                      {"aabb", ""},
                                      {"topology", "_topology"},
                                      {"ssh", "_ssh"},
+                                     {"mvh", "_mvh"},
                                      {"two-level", "_two_level"}}) {
         const std::string file = fileText("tests/golden/v1/two_triangles" + form + ".bvhx");
         std::istringstream text(fileText("format-spec/" + page + ".md"));

@@ -41,6 +41,10 @@ TEST_P(FormsOfScene, decodeToValidTreesThatHoldTheOriginal) {
                      validate(decoded, uint32_t(scene.triangles.size()), boundsOfTriangles(scene)).findings)
                     ADD_FAILURE() << finding.message;
                 ASSERT_TRUE(decoded.nodes[0].bounds.contains(bvh.nodes[0].bounds));
+                // Once decoded, boxes do not grow further.
+                const EncodedBvh again = form.function(scene, decoded, {});
+                EXPECT_EQ(boundsHash(decode(again)), boundsHash(decoded));
+                if (form.name == MvhForm::kName) continue;  // it has a tree of its own
                 ASSERT_TRUE(std::equal(bvh.primitives.begin(), bvh.primitives.end(),
                                        decoded.primitives.begin(), decoded.primitives.end()));
                 const std::vector<Aabb> boxes = leafBoxes(bvh), decodedBoxes = leafBoxes(decoded);
@@ -49,9 +53,6 @@ TEST_P(FormsOfScene, decodeToValidTreesThatHoldTheOriginal) {
                 if (decoded.nodes.size() == bvh.nodes.size()) {
                     EXPECT_EQ(topologyHash(decoded), topologyHash(bvh));
                 }
-                // Once decoded, boxes do not grow further.
-                const EncodedBvh again = form.function(scene, decoded, {});
-                EXPECT_EQ(boundsHash(decode(again)), boundsHash(decoded));
             }
         }
 }

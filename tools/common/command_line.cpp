@@ -182,7 +182,7 @@ void CommandLine::text(const std::string& names, const std::string& valueName, s
                        const std::string& help) {
     parser_->add(
         names, valueName, help, [&value](const std::string& text) { value = text; },
-        [&value] { return Report(value); });
+        [&value] { return value.empty() ? Report() : Report(value); });
 }
 
 void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {

@@ -52,6 +52,7 @@ class CommandLine {
                 const std::string& help);
     /// A finite number in [min, max]. A default below min stands for none.
     void number(const std::string& names, float& value, float min, float max, const std::string& help);
+    /// An empty default stands for none.
     void text(const std::string& names, const std::string& valueName, std::string& value,
               const std::string& help);
     void flag(const std::string& names, bool& value, const std::string& help);

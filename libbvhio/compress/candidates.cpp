@@ -20,7 +20,11 @@ std::span<const EncodingCandidate> encodingCandidates() {
         {"aabb", ""},
         {"ssh", ""},
         {"mvh", ""},
+        {"mvh", "--leaf-size 8", {.leafSize = 8}},
+        {"mvh", "--leaf-size 16", {.leafSize = 16}},
+        twoLevel("--tlas-form aabb --blas-form ssh --blas-size 16", TlasForm::aabb, BlasForm::ssh, 16),
         twoLevel("--tlas-form aabb --blas-form ssh --blas-size 32", TlasForm::aabb, BlasForm::ssh, 32),
+        twoLevel("--tlas-form aabb --blas-form ssh --blas-size 64", TlasForm::aabb, BlasForm::ssh, 64),
     };
     return kTable;
 }

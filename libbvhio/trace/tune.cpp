@@ -45,6 +45,9 @@ struct Times {
     double slowdown() const { return reference > 0 ? candidate / reference : 1; }
 };
 
+/// From this slowdown on one round will do: noise is small beside it, and time long.
+constexpr double kManyTimes = 8;
+
 /// Times both in turn on one thread.
 Times timeBoth(const Contestant& reference, const Contestant& candidate, std::span<const Ray> rays,
                uint32_t rounds) {
@@ -54,6 +57,7 @@ Times timeBoth(const Contestant& reference, const Contestant& candidate, std::sp
     for (uint32_t round = 0; round < rounds; ++round) {
         times[0].push_back(reference.seconds(rays, hits));
         times[1].push_back(candidate.seconds(rays, hits));
+        if (times[1][0] > kManyTimes * times[0][0]) break;
     }
     return {median(times[0]), median(times[1])};
 }

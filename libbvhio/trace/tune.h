@@ -34,8 +34,8 @@ struct TunedEncoding {
 
 /// Measures the candidates that a tree with exact boxes can be stored as. The sample is of primary and
 /// diffuse rays; closest hits are traced on one thread and timed by its processor time, in rounds of aabb and
-/// candidate in turn, of which the medians count. So slowdowns vary from run to run, by some percent; all
-/// else is the same every time.
+/// candidate in turn, of which the medians count; one round where the candidate takes many times as long. So
+/// slowdowns vary from run to run, by some percent; all else is the same every time.
 std::vector<TunedEncoding> measureEncodings(const Scene& scene, const Bvh& bvh,
                                             std::span<const EncodingCandidate> candidates,
                                             const TuneOptions& options);

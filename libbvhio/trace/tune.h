@@ -14,7 +14,7 @@
 namespace bvhio {
 
 struct TuneOptions {
-    uint64_t rays = 65536;  // of each set, at most
+    uint64_t rays = 32768;  // of each set, at most
     uint64_t seed = 1;
     uint32_t rounds = 5;
     Progress* progress = nullptr;  // counts candidates

@@ -33,6 +33,7 @@ class AabbForm {
     size_t nodeBytes() const { return bvh_.nodes.size() * sizeof(Node); }
 
     using Ray = const PreparedRay&;
+    const PreparedRay& prepare(const PreparedRay& ray) const { return ray; }
 
     template <class Metrics>
     BVHIO_INLINE bool enterRoot(const PreparedRay& ray, float tLimit, Entered<Cursor>& root,

@@ -17,6 +17,7 @@ class AabbBlases {
     using Form = AabbForm;
     using Cursor = AabbForm::Cursor;
     using Ray = AabbForm::Ray;
+    const PreparedRay& prepare(const PreparedRay& ray) const { return ray; }
     using Root = AabbForm::Cursor;
     static constexpr int kMaxChildren = AabbForm::kMaxChildren;
 
@@ -57,6 +58,7 @@ class SshBlases {
     using Form = SshForm;
     using Cursor = SshForm::Cursor;
     using Ray = SshForm::Ray;
+    SshRay prepare(const PreparedRay& ray) const { return SshRay(ray); }
     using Root = uint32_t;  // the word of a node whose plane says nothing
     static constexpr int kMaxChildren = SshForm::kMaxChildren;
 

@@ -68,7 +68,8 @@ struct EncodeOptions {
 /// and the culling; a form owns its Cursor (an index; an index and a decoded box; an index and ray
 /// parameters) and:
 ///
-/// - Ray: what it makes of a PreparedRay once before the traversal; a reference to that where nothing.
+/// - prepare: what it makes of a PreparedRay once before the traversal, its Ray; a reference to that where
+/// nothing.
 /// - step: from an inner node as it was entered, tests the children's boxes and writes those entered to
 /// `children`, nearest first (equal
 ///   ones in stored order); returns how many. A child is entered when its part of the ray, cut off at
@@ -79,10 +80,12 @@ struct EncodeOptions {
 ///
 /// Each record fetched and each box tested is told to the metrics.
 template <class F>
-concept SteppableForm = requires(const F form, const typename F::Cursor cursor, const typename F::Ray ray,
-                                 float tLimit, const Entered<typename F::Cursor> entered,
+concept SteppableForm = requires(const F form, const typename F::Cursor cursor, const PreparedRay given,
+                                 const typename F::Ray ray, float tLimit,
+                                 const Entered<typename F::Cursor> entered,
                                  Entered<typename F::Cursor>* children, NoMetrics metrics) {
     { F::kMaxChildren } -> std::convertible_to<int>;
+    { form.prepare(given) } -> std::same_as<typename F::Ray>;
     { form.step(entered, ray, tLimit, children, metrics) } -> std::same_as<int>;
     { form.isLeaf(cursor) } -> std::same_as<bool>;
     { form.primitiveRange(cursor) } -> std::same_as<PrimitiveRange>;

@@ -96,6 +96,7 @@ class SshForm {
     static Forest decodeTrees(const Trees& trees, std::span<const Aabb> boxes);
 
     using Ray = SshRay;
+    SshRay prepare(const PreparedRay& ray) const { return SshRay(ray); }
 
     template <class Metrics>
     BVHIO_INLINE bool enterRoot(const SshRay& ray, float tLimit, Entered<Cursor>& root,

@@ -23,6 +23,7 @@ class AabbTlas {
   public:
     using Form = AabbForm;
     using Ray = AabbForm::Ray;
+    const PreparedRay& prepare(const PreparedRay& ray) const { return ray; }
     static constexpr int kMaxChildren = AabbForm::kMaxChildren;
 
     struct Cursor {

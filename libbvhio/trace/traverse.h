@@ -94,7 +94,7 @@ struct TestTriangles {
 template <Form F, class Source, class Query, class Metrics>
 HWY_INLINE void traverse(const F& form, const Source& source, const PreparedRay& ray, Query& query,
                          Metrics& metrics) {
-    const typename F::Ray formRay(ray);
+    const typename F::Ray formRay = form.prepare(ray);
     Entered<typename F::Cursor> root;
     if (form.enterRoot(formRay, query.boxLimit(), root, metrics))
         traverseFrom(form, root, formRay, query, metrics,

@@ -40,10 +40,10 @@ struct TraverseBlas {
 template <class Tlas, class Blases, class Source, class Query, class Metrics>
 HWY_NOINLINE void traverseLevels(const Tlas& tlas, const Blases& blases, const Source& source,
                                  const PreparedRay& ray, Query& query, Metrics& metrics) {
-    const typename Tlas::Ray tlasRay(ray);
+    const typename Tlas::Ray tlasRay = tlas.prepare(ray);
     Entered<typename Tlas::Cursor> root;
     if (!tlas.enterRoot(tlasRay, query.boxLimit(), root, metrics)) return;
-    const typename Blases::Ray blasRay(ray);
+    const typename Blases::Ray blasRay = blases.prepare(ray);
     MetricsBehind<Metrics> behind{metrics, tlas.form().nodeBytes()};
     traverseFrom(tlas, root, tlasRay, query, metrics,
                  TraverseBlas<Tlas, Blases, Source, Query, MetricsBehind<Metrics>>{

@@ -53,6 +53,29 @@ std::vector<NamedValue> codecNames() {
     return names;
 }
 
+/// The option of the quantized form: 0 where not given.
+class QuantizedOptions {
+  public:
+    explicit QuantizedOptions(CommandLine& line) {
+        line.number("--bits", bits_, QuantizedRecord::kMinBits, QuantizedRecord::kMaxBits,
+                    "quantized: bits a plane");
+    }
+
+    /// Adds what was given to the options for `form`, and fills in the rest.
+    void addTo(EncodeOptions& options, std::string_view form) {
+        if (form == QuantizedForm::kName) {
+            if (bits_ == 0) bits_ = options.bits;
+            options.bits = bits_;
+        } else if (bits_ != 0) {
+            throw Error(ErrorKind::usage,
+                        "--bits: is for --form quantized, not " + std::string(form) + ": leave it out");
+        }
+    }
+
+  private:
+    uint32_t bits_ = 0;
+};
+
 /// Options of the two-level form: empty or 0 where not given.
 class TwoLevelOptions {
   public:
@@ -127,6 +150,7 @@ ExitCode compress(CommandLine& line) {
                                        vertexOrder(kVertexOrders[0].name);
     uint32_t level = 0, positionBits = 16;
     line.choice("--form", form, namedValues(forms()), "how nodes are stored");
+    QuantizedOptions quantized(line);
     TwoLevelOptions twoLevel(line);
     MvhOptions mvh(line);
     FormSearch search(line);
@@ -145,6 +169,7 @@ ExitCode compress(CommandLine& line) {
 
     const auto givenEncoding = [&] {
         EncodeOptions options;
+        quantized.addTo(options, form);
         twoLevel.addTo(options, form);
         mvh.addTo(options, form);
         return options;

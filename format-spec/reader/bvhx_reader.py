@@ -389,6 +389,47 @@ def read_two_level(chunks, slots, references):
     return nodes + below, chunks.expect("PRIM", 4 * references)
 
 
+def float_up(x):
+    """The least binary32 number that is not below x."""
+    nearest = struct.unpack("<f", struct.pack("<f", x))[0]
+    if nearest >= x:
+        return nearest
+    bits = struct.unpack("<i", struct.pack("<f", nearest))[0]
+    bits = 1 if nearest == 0 else bits + (1 if nearest > 0 else -1)
+    return struct.unpack("<f", struct.pack("<i", bits))[0]
+
+
+def read_quantized(chunks, slots, references):
+    count = slots // 2 - 1
+    reject_if(references > 2**29 or (count == 0 and references > 128), 2011, "references")
+    raw = chunks.expect("FORM", 64)
+    reject_if(any(raw[28:]), 2006, "FORM: reserved")
+    *root, bits = struct.unpack_from("<6fI", raw)
+    reject_if(not all(map(math.isfinite, root)) or any(root[i] > root[i + 3] for i in range(3)), 4001, "the root's box")
+    reject_if(not 5 <= bits <= 8, 2019, "bits")
+    extent = [root[i + 3] - root[i] for i in range(3)]
+    nodes = [(*root, 2, 0) if count else (*root, 0, references), (0,) * 8]
+    insets = {0: (0.0,) * 6}
+    for index, record in enumerate(struct.iter_unpack("<8B2I", chunks.expect("NODE", 16 * count))):
+        planes, owners, words = record[:3] + record[4:7], (record[3], record[7]), record[8:]
+        reject_if(any(n >> bits for n in planes), 3010, f"record {index}")
+        reject_if(index not in insets, 3003, f"record {index}")
+        parent = insets[index]
+        steps = [((extent[i] - parent[i]) - parent[i + 3]) * 2.0**-bits for i in range(3)]
+        for child, word in enumerate(words):
+            own = [parent[i] + planes[i] * steps[i % 3] if owners[i // 3] >> i % 3 & 1 == child else parent[i] for i in range(6)]
+            box = [float_up(root[i] + own[i]) for i in range(3)] + [-float_up(-(root[i] - own[i])) for i in range(3, 6)]
+            if word >> 31:
+                nodes.append((*box, word & (2**29 - 1), (owners[child] >> 3 << 2 | word >> 29 & 3) + 1))
+                continue
+            reject_if(owners[child] >> 3, 3010, f"record {index}")
+            reject_if(not index < word < count, 3002, f"record {index}")
+            reject_if(word in insets, 3003, f"record {word}")
+            insets[word] = own
+            nodes.append((*box, 2 * word + 2, 0))
+    return nodes, chunks.expect("PRIM", 4 * references)
+
+
 def binary32(x):
     """Of a sum or product of two binary32 numbers in binary64: rounding twice gives what rounding once does."""
     try:
@@ -435,7 +476,7 @@ def read_mvh(chunks, slots, references):
     return nodes, chunks.expect("PRIM", 4 * references)
 
 
-FORMS = {b"aabb": read_aabb, b"ssh ": read_ssh, b"mvh ": read_mvh, b"two ": read_two_level}
+FORMS = {b"aabb": read_aabb, b"quan": read_quantized, b"ssh ": read_ssh, b"mvh ": read_mvh, b"two ": read_two_level}
 
 
 def check_tree(nodes, raw_primitives, slots, references, stated_depth, scene):

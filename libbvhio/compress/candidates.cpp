@@ -18,6 +18,7 @@ EncodingCandidate twoLevel(std::string_view parameters, TlasForm tlasForm, BlasF
 std::span<const EncodingCandidate> encodingCandidates() {
     static const EncodingCandidate kTable[] = {
         {"aabb", ""},
+        {"quantized", ""},
         {"ssh", ""},
         {"mvh", ""},
         {"mvh", "--leaf-size 8", {.leafSize = 8}},

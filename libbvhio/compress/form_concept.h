@@ -50,6 +50,8 @@ enum class BlasForm : uint8_t { ssh, aabb };
 
 /// What forms can be told; each takes what concerns it.
 struct EncodeOptions {
+    uint32_t bits = 8;  // quantized: of a plane, 5 to 8
+
     // mvh; 0 = as suits the tree
     uint32_t leafSize = 4;
     float zeta = 0, zetaOfBoth = 0;

@@ -51,6 +51,7 @@ class MvhForm {
     size_t nodeBytes() const { return words_.size() * sizeof(uint32_t); }
 
     using Ray = MvhRay;
+    MvhRay prepare(const PreparedRay& ray) const { return MvhRay(ray); }
 
     template <class Metrics>
     BVHIO_INLINE bool enterRoot(const MvhRay& ray, float tLimit, Entered<Cursor>& root,

@@ -8,29 +8,29 @@
 // rounded at every step).
 //
 // The difficulty is rounding: a plane must never be found inside its box, or hits are lost. Rounding each new
-// plane outwards does not work, as a plane that was moved outwards pushes the planes of the far side that are
-// found from it inwards. We shift all planes of a ray outwards by one margin, once, and take it off again
-// where the size of a box is needed. What remains is plain rounding, which cannot grow: each new plane is an
-// average of its parent's two. The margin is larger than all that can add up on the way down.
+// plane outwards does not work, as a plane that was moved outwards pushes the planes that are found from it
+// on the other side inwards. So planes on the way down are merely rounded to nearest. What they err cannot
+// grow, since each new plane is an average of its parent's two: it only adds up, and stays below a margin
+// that is known when the ray starts. The boxes that are tested are larger by that.
 //
 // Lemma. Let u = 2^-24, and on one axis let T(p) be what this file calls the place of p: exactly (p - origin)
 // / direction, for a ray that is regular, p - origin for others. Let M be the largest |place| of the root's
-// two planes, as computed, and m = 2^-17 M + 2^-120 the margin. Let `min`, `max` be places of a box's planes
-// as this file's functions compute them, after at most 96 steps, each of which replaces min by min + f size
-// or max by max - f size, or both (from the same size), with f in [0, 1] and the sum f of both at most 1; and
-// let P, Q be the exact planes that the same steps find from the root's, with exact arithmetic. If the ray
-// goes up the axis:
-//     min <= T(P) - 21 u M   and   max >= T(Q) + 21 u M;
+// two planes, as computed, and m = 2^-17 M + 2^-120 the margin, taken with the direction's sign. Let `min`,
+// `max` be the places of a box's planes as this file and at most 96 steps compute them, where a step replaces
+// min by min + f size, or max by max - f size, or both from the same size = max - min, with f in [0, 1], the
+// sum of both f at most 1 and a relative error of the product of at most 3 u; and let P, Q be the planes that
+// the same steps find from the root's, with exact arithmetic. If the ray goes up the axis:
+//     min <= T(P) - 19 u M   and   max + 2 m >= T(Q) + 19 u M;
 // if it goes down, the same holds with the signs swapped.
-// Proof. Write min = T(P) - m + a and max = T(Q) + m + b. At the root |a|, |b| <= R0 = 4.2 u M: the place is
-// rounded at most three times, the subtraction of m once. With S = T(Q) - T(P), size = ((max - min) - 2 m)
-// has two roundings of relative size u, so it is S + b - a with an error of at most 2 u S + 2^-14 u M (2 m is
-// exact; m and a are below 2^-16 M). The product with f adds at most u f S, the sum at most u M (1 +
-// 2^-13), and underflow at most 2^-140, which the term 2^-120 of m pays for. So the new a' is
-// (1 - f) a + f b with an error of at most 3 u f S + u M (1 + 2^-12): the first part is an average, which
-// does not exceed the larger of the two; the second adds up to at most 3 u S0 <= 6.1 u M over all steps, as
-// each step takes at least f S off the size; the third to at most 96.1 u M. Together |a|, |b| <= (4.2 + 6.1
-// + 96.1) u M < 107 u M, and m >= 128 u M. If f is 0 the plane is kept as it is. QED.
+// Proof. All places are held shifted by -m, which the size does not notice: write min = T(P) - m + a and max
+// = T(Q) - m + b. At the root |a|, |b| <= R0 = 4.2 u M: a place is rounded at most three times, the
+// subtraction of m once. With S = T(Q) - T(P), size is S + b - a with a relative error u, f size has at most
+// 4.1 u (S + |b - a|) f, and the sum adds at most u M (1 + 2^-15). So the new a' is (1 - f) a + f b with an
+// error of at most 4.1 u f S + u M (1 + 2^-14): the first part is an average, which does not exceed the
+// larger of the two; the second adds up to at most 4.1 u S0 <= 8.3 u M over all steps, as each step takes at
+// least f S off the size; the third to at most 96.1 u M. Together |a|, |b| <= (4.2 + 8.3 + 96.1) u M < 108.7
+// u M, while m >= 128 u M; the sum max + 2 m is rounded by at most u M more. Underflow, of at most 2^-140 a
+// step, is paid for by the 2^-120 of m. If f is 0 the plane is kept as it is. QED.
 //
 // What follows for a form: let a node's stored box be what the same fractions find in binary64 from the
 // root's box (compress/inset_box.h); its planes differ from the exact P, Q by less than u M / 4 in places.
@@ -70,93 +70,137 @@ BVHIO_INLINE Four max(Four a, Four b) {
 #endif
 }
 
-/// The places of a box's planes, moved outwards by the margin. Lane 3 holds the ends of the ray itself.
+/// The places of a box's planes, shifted by the margin: what a traversal remembers of a box. Lane 3 holds the
+/// ray's own start in both.
 struct PlacedBox {
     Four min, max;
+};
+
+/// Which of two boxes a ray enters.
+struct EnteredOfTwo {
+    float enter[2];    // where
+    uint32_t entered;  // bit 0: the first, bit 1: the second
 };
 
 /// Where a ray sees planes. A ray is regular unless a component of its direction is zero or extreme, or it
 /// sees the root's box extremely far away; for regular rays places are parameters.
 class RayFrame {
   public:
-    /// A form's tree has `bounds` at its root.
-    RayFrame(const PreparedRay& ray, const Aabb& bounds) : ray_(ray) {
-        constexpr float kFar = 0x1p100f, kLast = std::numeric_limits<float>::max();
+    /// For a tree that has `bounds` at its root.
+    BVHIO_INLINE RayFrame(const PreparedRay& ray, const Aabb& bounds) : ray_(ray) {
         const Four origin{ray.origin.x, ray.origin.y, ray.origin.z, 0};
         const Four direction{ray.direction.x, ray.direction.y, ray.direction.z, 1};
         const Four lower = Four{bounds.min.x, bounds.min.y, bounds.min.z, ray.tMin} - origin;
         const Four upper = Four{bounds.max.x, bounds.max.y, bounds.max.z, ray.tMin} - origin;
         const Four reciprocal = 1.0f / direction;
         const Four length = max(direction, -direction);
-        Four first = lower * reciprocal, last = upper * reciprocal;
-        Four largest = max(max(first, -first), max(last, -last));
-        regular_ = areWithin(length, 1 / kFar, kFar) && areWithin(largest, 0, kFar);
-        if (!regular_) {
-            first = lower;
-            last = upper;
-            largest = max(max(first, -first), max(last, -last));
-            for (int axis = 0; axis < 3; ++axis)
-                if (!(largest[axis] <= kFar)) {
-                    // Infinite, perhaps: such an axis says nothing (a NaN fails each comparison).
-                    first[axis] = last[axis] = largest[axis] = 0;
-                    unbounded_[size_t(axis)] = std::numeric_limits<float>::quiet_NaN();
-                }
-        }
-        Four margin = largest * kMargin + 0x1p-120f;
+        const Four first = lower * reciprocal, last = upper * reciprocal;
+        const Four farther = max(max(first, -first), max(last, -last));
+        regular_ = areAll((length >= 1 / kFar) & (length <= kFar) & (farther <= kFar));
         if (regular_)
-            for (int axis = 0; axis < 3; ++axis) margin[axis] = std::copysign(margin[axis], direction[axis]);
-        root_ = {first - margin, last + margin};
-        twiceMargin_ = margin + margin;
-        // Lane 3 has no size, so it stays as it is.
-        root_.min[3] = regular_ ? ray.tMin : 0;
-        root_.max[3] = kLast;
-        twiceMargin_[3] = root_.max[3] - root_.min[3];
+            shift(first, last, Four((Bits(direction) & kSign) | Bits(marginOf(farther))), ray.tMin);
+        else
+            setIrregular(lower, upper);
     }
 
     bool isRegular() const { return regular_; }
     const PreparedRay& ray() const { return ray_; }
     const PlacedBox& root() const { return root_; }
 
-    /// How far a box's planes lie apart: the margin taken off. Negative where the ray goes down an axis.
-    BVHIO_INLINE Four size(const PlacedBox& box) const { return (box.max - box.min) - twiceMargin_; }
+    /// How far a box's planes lie apart; negative where the ray goes down an axis, 0 in lane 3.
+    static BVHIO_INLINE Four size(const PlacedBox& box) { return box.max - box.min; }
 
     /// The part of a regular ray in the box, up to `tLimit`.
-    static BVHIO_INLINE RayInterval clipRegular(const PlacedBox& box, float tLimit) {
-        const Four near = min(box.min, box.max), far = max(box.min, box.max);
+    BVHIO_INLINE RayInterval clipRegular(const PlacedBox& box, float tLimit) const {
+        const Four first = box.min, last = box.max + twiceMargin_;
+        const Four near = min(first, last), far = max(first, last);
         const auto larger = [](float a, float b) { return a > b ? a : b; };
         const auto smaller = [](float a, float b) { return a < b ? a : b; };
         return {larger(larger(near[0], near[1]), larger(near[2], near[3])),
                 smaller(smaller(far[0], far[1]), smaller(far[2], tLimit))};
     }
 
-    /// The part of a ray that is not regular in the box, up to `tLimit`: places are differences to the
-    /// origin, which is what clipToPlanes multiplies by the reciprocals.
+    /// Which of two boxes a regular ray enters before `tLimit`, and where.
+    BVHIO_INLINE EnteredOfTwo clipRegular(const PlacedBox& a, const PlacedBox& b, float tLimit) const {
+#if defined(__SSE__)
+        const Four lastA = a.max + twiceMargin_, lastB = b.max + twiceMargin_;
+        const __m128 nearA(min(a.min, lastA)), farA(max(a.min, lastA));
+        const __m128 nearB(min(b.min, lastB)), farB(max(b.min, lastB));
+        __m128 enter = _mm_max_ps(_mm_unpacklo_ps(nearA, nearB), _mm_unpackhi_ps(nearA, nearB));
+        __m128 exit = _mm_min_ps(_mm_unpacklo_ps(farA, farB), _mm_unpackhi_ps(farA, farB));
+        enter = _mm_max_ps(enter, _mm_movehl_ps(enter, enter));
+        exit = _mm_min_ps(_mm_min_ps(exit, _mm_movehl_ps(exit, exit)), _mm_set1_ps(tLimit));
+        return {{_mm_cvtss_f32(enter), _mm_cvtss_f32(_mm_shuffle_ps(enter, enter, 1))},
+                uint32_t(_mm_movemask_ps(_mm_cmple_ps(enter, exit))) & 3};
+#else
+        return bothOf(clipRegular(a, tLimit), clipRegular(b, tLimit));
+#endif
+    }
+
+    /// The same for a ray that is not regular: places are differences to the origin, which is what
+    /// clipToPlanes multiplies by the reciprocals.
     RayInterval clipIrregular(const PlacedBox& box, float tLimit) const {
+        const Four first = box.min, last = box.max + twiceMargin_;
         RayInterval part{ray_.tMin, tLimit};
         for (int axis = 0; axis < 3; ++axis) {
             const bool backwards = ray_.nearPlane[axis] >= 3;
             const float none = unbounded_[size_t(axis)];
-            const float near = (backwards ? box.max : box.min)[axis] * ray_.nearReciprocal[axis] + none;
-            const float far = (backwards ? box.min : box.max)[axis] * ray_.farReciprocal[axis] + none;
+            const float near = (backwards ? last : first)[axis] * ray_.nearReciprocal[axis] + none;
+            const float far = (backwards ? first : last)[axis] * ray_.farReciprocal[axis] + none;
             part.enter = near > part.enter ? near : part.enter;
             part.exit = far < part.exit ? far : part.exit;
         }
         return part;
     }
+    EnteredOfTwo clipIrregular(const PlacedBox& a, const PlacedBox& b, float tLimit) const {
+        return bothOf(clipIrregular(a, tLimit), clipIrregular(b, tLimit));
+    }
 
-    /// The part of any ray in the box, up to `tLimit`.
+    /// For any ray.
     BVHIO_INLINE RayInterval clip(const PlacedBox& box, float tLimit) const {
         return regular_ ? clipRegular(box, tLimit) : clipIrregular(box, tLimit);
     }
+    BVHIO_INLINE EnteredOfTwo clip(const PlacedBox& a, const PlacedBox& b, float tLimit) const {
+        return regular_ ? clipRegular(a, b, tLimit) : clipIrregular(a, b, tLimit);
+    }
 
   private:
-    static constexpr float kMargin = 0x1p-17f;
+    using Bits = int32_t __attribute__((vector_size(16)));
+    static constexpr Bits kSign{INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN};
+    static constexpr float kFar = 0x1p100f;
     static_assert(kMaxDepth <= 96, "the margin is for 96 steps");
 
-    static bool areWithin(Four v, float least, float most) {
-        bool within = true;
-        for (int lane = 0; lane < 4; ++lane) within &= v[lane] >= least && v[lane] <= most;
-        return within;
+    static BVHIO_INLINE Four marginOf(Four farther) {
+        return farther * 0x1p-17f + 0x1p-120f;
+    }
+    static BVHIO_INLINE bool areAll(Bits lanes) {
+#if defined(__SSE__)
+        return _mm_movemask_ps(__m128(lanes)) == 15;
+#else
+        return (lanes[0] & lanes[1] & lanes[2] & lanes[3]) != 0;
+#endif
+    }
+    static EnteredOfTwo bothOf(const RayInterval& a, const RayInterval& b) {
+        return {{a.enter, b.enter}, uint32_t(!a.isEmpty()) | uint32_t(!b.isEmpty()) << 1};
+    }
+
+    BVHIO_INLINE void shift(Four first, Four last, Four margin, float start) {
+        root_ = {first - margin, last - margin};
+        twiceMargin_ = margin + margin;
+        // Lane 3 has no size, so it stays as it is; as a test sees it, it reaches from the start to infinity.
+        root_.min[3] = root_.max[3] = start;
+        twiceMargin_[3] = std::numeric_limits<float>::max();
+    }
+
+    [[gnu::noinline]] void setIrregular(Four first, Four last) {
+        Four farther = max(max(first, -first), max(last, -last));
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(farther[axis] <= kFar)) {
+                // Infinite, perhaps: such an axis says nothing (a NaN fails each comparison).
+                first[axis] = last[axis] = farther[axis] = 0;
+                unbounded_[size_t(axis)] = std::numeric_limits<float>::quiet_NaN();
+            }
+        shift(first, last, marginOf(farther), 0);
     }
 
     const PreparedRay& ray_;

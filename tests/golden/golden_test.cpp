@@ -64,6 +64,7 @@ TEST(Golden, workedBytesOfThePagesAreTrue) {
                                      {"chunks", ""},
                                      {"aabb", ""},
                                      {"topology", "_topology"},
+                                     {"quantized", "_quantized"},
                                      {"ssh", "_ssh"},
                                      {"mvh", "_mvh"},
                                      {"two-level", "_two_level"}}) {

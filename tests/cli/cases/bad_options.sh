@@ -20,6 +20,8 @@ code bvh-relayout cube.bvhx --layout dsf
 code bvh-compress cube.bvhx --codec zsdt
 code bvh-compress cube.bvhx --geometry rew
 code bvh-compress cube.bvhx --form ssh --codec topology
+code bvh-compress cube.bvhx --form ssh --bits 6
+code bvh-compress cube.bvhx --form quantized --bits 9
 code bvh-trace cube.bvhx --resolution 64
 code bvh-trace cube.bvhx --camera here
 code bvh-trace cube.bvhx --rays prinary

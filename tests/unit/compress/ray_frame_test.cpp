@@ -58,9 +58,8 @@ Ray randomRay(Random& random, const Aabb& bounds) {
 }
 
 /// Takes one step in both spaces.
-void step(const RayFrame& frame, const InsetFrame& insets, const std::array<float, 6>& f, PlacedBox& placed,
-          InsetBox& box) {
-    const Four size = frame.size(placed);
+void step(const InsetFrame& insets, const std::array<float, 6>& f, PlacedBox& placed, InsetBox& box) {
+    const Four size = RayFrame::size(placed);
     placed.min = placed.min + Four{f[0], f[1], f[2], 1} * size;
     placed.max = placed.max - Four{f[3], f[4], f[5], 1} * size;
     for (int axis = 0; axis < 3; ++axis) {
@@ -87,7 +86,7 @@ TEST(RayFrame, acceptsWhateverClipToBoxAcceptsAllTheWayDown) {
             PlacedBox placed = frame.root();
             InsetBox box;
             for (const auto& f : chain.fractions) {
-                step(frame, insets, f, placed, box);
+                step(insets, f, placed, box);
                 const Aabb floats = insets.floats(box);
                 if (floats.isEmpty()) break;
                 for (const float limit : {kInf, clipToBox(ray, floats, kInf).exit}) {
@@ -122,7 +121,7 @@ TEST(RayFrame, keepsTheMarginThatItProves) {
         PlacedBox placed = frame.root();
         InsetBox box;
         for (const auto& f : chain.fractions) {
-            step(frame, insets, f, placed, box);
+            step(insets, f, placed, box);
             for (int axis = 0; axis < 3; ++axis) {
                 const auto place = [&](long double from, double inset) {
                     return (from + inset - ray.origin[axis]) / ray.direction[axis];
@@ -130,11 +129,12 @@ TEST(RayFrame, keepsTheMarginThatItProves) {
                 const float lower = chain.bounds.min[axis], upper = chain.bounds.max[axis];
                 const long double sign = ray.direction[axis] < 0 ? -1 : 1;
                 const long double largest = std::max(std::abs(place(lower, 0)), std::abs(place(upper, 0)));
+                // All places are shifted by the margin, 128 u; the test's boxes by as much outwards.
                 const long double below = sign * (place(lower, box.min[axis]) - placed.min[axis]);
-                const long double above = sign * (placed.max[axis] - place(upper, -box.max[axis]));
-                for (const long double margin : {below, above}) {
-                    ASSERT_GE(margin, 20 * u * largest);
-                    ASSERT_LE(margin, 236 * u * largest + 0x1p-119L);
+                const long double above = sign * (place(upper, -box.max[axis]) - placed.max[axis]);
+                for (const long double shift : {below, above}) {
+                    ASSERT_GE(shift, 20 * u * largest);
+                    ASSERT_LE(shift, 236 * u * largest + 0x1p-119L);
                     ++compared;
                 }
             }

@@ -1,0 +1,204 @@
+// The quantized form: one record for both children of an inner node, 16 bytes.
+//
+// M. Ernst, S. Woop, "Ray Tracing with Shared-Plane Bounding Volume Hierarchies", 2011: of the twelve planes
+// of two siblings six are their parent's, so a record stores one plane for each side, and a mask says which
+// child has it; the other inherits. K. Vaidyanathan, T. Akenine-Moeller, M. Salvi, "Watertight Ray Traversal
+// with Reduced Precision", HPG 2016: planes are small integers relative to the parent's box, and a ray
+// carries the parameters of the planes instead of a box.
+//
+// Departures: planes are insets from the parent's side, so 0 means inherited and no sign is stored; rounding
+// is paid for by one margin a ray (compress/ray_frame.h has the proof), not at each step.
+#pragma once
+
+#include "compress/form_concept.h"
+#include "compress/ray_frame.h"
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace bvhio {
+
+/// What an inner node says of its two children; 16 bytes, plain data, stored as is in files
+/// (format-spec/quantized.md).
+struct alignas(16) QuantizedRecord {
+    static constexpr uint32_t kMaxLeafSize = 128;
+    static constexpr uint32_t kMaxReferences = 1u << 29;
+    static constexpr uint32_t kMinBits = 5, kMaxBits = 8;
+
+    /// Bytes 0 to 2, 4 to 6: how far the planes min x, y, z and max x, y, z lie inside the parent's. Bytes 3
+    /// and 7: in bits 0 to 2 whose those planes are, a 1 for the right child; in bits 3 to 7 the higher part
+    /// of a leaf's size, in byte 3 for the left child.
+    uint8_t bytes[8];
+    uint32_t children[2];
+
+    constexpr uint32_t inset(uint32_t side) const { return bytes[side + side / 3]; }
+    constexpr bool isRights(uint32_t side) const { return bytes[side < 3 ? 3 : 7] >> side % 3 & 1; }
+    /// A child in 40 bits, as a cursor holds it.
+    constexpr uint8_t more(uint32_t child) const { return bytes[3 + 4 * child]; }
+
+    static constexpr bool isLeaf(uint32_t word) { return word >> 31 != 0; }
+    /// Of an inner node: its record.
+    static constexpr uint32_t record(uint32_t word) { return word; }
+    static constexpr uint32_t firstPrimitive(uint32_t word) { return word & (kMaxReferences - 1); }
+    static constexpr uint32_t primitiveCount(uint32_t word, uint8_t more) {
+        return (uint32_t(more >> 3) << 2 | (word >> 29 & 3)) + 1;
+    }
+
+    void setPlane(uint32_t side, uint32_t inset, bool isRights) {
+        bytes[side + side / 3] = uint8_t(inset);
+        bytes[side < 3 ? 3 : 7] |= uint8_t(isRights << side % 3);
+    }
+    void setInner(uint32_t child, uint32_t record) { children[child] = record; }
+    void setLeaf(uint32_t child, uint32_t first, uint32_t count) {
+        children[child] = 1u << 31 | (count - 1) % 4 << 29 | first;
+        bytes[3 + 4 * child] |= uint8_t((count - 1) / 4 << 3);
+    }
+};
+static_assert(sizeof(QuantizedRecord) == 16);
+
+class QuantizedForm {
+  public:
+    static constexpr std::string_view kName = "quantized";
+    static constexpr std::string_view kSummary = "16 bytes for two siblings, planes relative to the parent's";
+    static constexpr int kMaxChildren = 2;
+
+    struct Cursor {
+        PlacedBox box;
+        uint32_t word;
+        uint8_t more;
+    };
+
+    /// `records` as in format-spec/quantized.md. `bits` of an inset; a tree without records is one leaf of
+    /// all references.
+    QuantizedForm(const Aabb& bounds, uint32_t bits, SharedArray<QuantizedRecord> records,
+                  SharedArray<uint32_t> primitives)
+        : bounds_(bounds),
+          bits_(bits),
+          records_(std::move(records)),
+          primitives_(std::move(primitives)),
+          rootWord_(records_.empty() ? leaf().children[0] : 0),
+          rootMore_(records_.empty() ? leaf().more(0) : uint8_t(0)),
+          stepOfSize_(1 / float(1u << bits)) {}
+
+    /// O(n). Leaves of more than 128 triangles are halved. Throws Error{unsupported} above 2^29 references.
+    static QuantizedForm encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options);
+
+    Bvh decode() const;
+    const Aabb& bounds() const { return bounds_; }
+    uint32_t bits() const { return bits_; }
+    const SharedArray<QuantizedRecord>& records() const { return records_; }
+    const SharedArray<uint32_t>& primitives() const { return primitives_; }
+    EncodeOptions options() const {
+        EncodeOptions options;
+        options.bits = bits_;
+        return options;
+    }
+    size_t nodeBytes() const { return records_.size() * sizeof(QuantizedRecord); }
+
+    using Ray = RayFrame;
+    RayFrame prepare(const PreparedRay& ray) const { return {ray, bounds_}; }
+
+    template <class Metrics>
+    BVHIO_INLINE bool enterRoot(const RayFrame& ray, float tLimit, Entered<Cursor>& root,
+                                Metrics& metrics) const {
+        metrics.boxesTested(1, BoxTestCost{12, 12});
+        const RayInterval part = ray.clip(ray.root(), tLimit);
+        root = {{ray.root(), rootWord_, rootMore_}, part.enter};
+        return !part.isEmpty();
+    }
+
+    /// Per pair: 3 differences for the size of the box, 6 products and 6 sums for the new planes, 3 sums a
+    /// child for the margin.
+    template <class Metrics>
+    BVHIO_INLINE int step(const Entered<Cursor>& from, const RayFrame& ray, float tLimit,
+                          Entered<Cursor>* children, Metrics& metrics) const {
+        const uint32_t index = QuantizedRecord::record(from.cursor.word);
+        metrics.recordFetched(index * sizeof(QuantizedRecord), sizeof(QuantizedRecord));
+        metrics.boxesTested(1, BoxTestCost{11, 12});
+        metrics.boxesTested(1, BoxTestCost{10, 12});
+        const QuantizedRecord& record = records_[index];
+        PlacedBox left, right;
+        placeChildren(record, from.cursor.box, left, right);
+        const EnteredOfTwo found = ray.clip(left, right, tLimit);
+        const auto enter = [&](uint32_t child, const PlacedBox& box, Entered<Cursor>& entered) {
+            entered = {{box, record.children[child], record.more(child)}, found.enter[child]};
+        };
+        switch (found.entered) {
+            case 0:
+                return 0;
+            case 1:
+                enter(0, left, children[0]);
+                return 1;
+            case 2:
+                enter(1, right, children[0]);
+                return 1;
+            default:
+                if (found.enter[1] < found.enter[0]) {
+                    enter(1, right, children[0]);
+                    enter(0, left, children[1]);
+                } else {
+                    enter(0, left, children[0]);
+                    enter(1, right, children[1]);
+                }
+                return 2;
+        }
+    }
+
+    bool isLeaf(const Cursor& cursor) const { return QuantizedRecord::isLeaf(cursor.word); }
+    PrimitiveRange primitiveRange(const Cursor& cursor) const {
+        return {QuantizedRecord::firstPrimitive(cursor.word),
+                QuantizedRecord::primitiveCount(cursor.word, cursor.more)};
+    }
+
+  private:
+    QuantizedRecord leaf() const {
+        QuantizedRecord record{};
+        record.setLeaf(0, 0, uint32_t(primitives_.size()));
+        return record;
+    }
+
+    /// The children's boxes as the ray sees them. Whatever does not need `box` is done first: a ray going
+    /// down waits for one box after the other.
+    BVHIO_INLINE void placeChildren(const QuantizedRecord& record, const PlacedBox& box, PlacedBox& left,
+                                    PlacedBox& right) const {
+        const Four size = RayFrame::size(box);
+#if defined(__SSE2__)
+        const __m128i zero = _mm_setzero_si128();
+        const __m128i raw = _mm_load_si128(reinterpret_cast<const __m128i*>(&record));
+        const __m128i words = _mm_unpacklo_epi8(raw, zero);
+        // Lane 3 becomes some number, times a size of 0.
+        const Four ofMin = Four(_mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero))) * stepOfSize_;
+        const Four ofMax = Four(_mm_cvtepi32_ps(_mm_unpackhi_epi16(words, zero))) * stepOfSize_;
+        const __m128i owners = _mm_setr_epi32(1 << 24, 1 << 25, 1 << 26, 0);
+        const auto areRights = [&](__m128i fourTimes) {
+            return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_and_si128(fourTimes, owners), owners));
+        };
+        const __m128 minIsRights = areRights(_mm_shuffle_epi32(raw, 0x00));
+        const __m128 maxIsRights = areRights(_mm_shuffle_epi32(raw, 0x55));
+        left.min = box.min + Four(_mm_andnot_ps(minIsRights, __m128(ofMin))) * size;
+        left.max = box.max - Four(_mm_andnot_ps(maxIsRights, __m128(ofMax))) * size;
+        right.min = box.min + Four(_mm_and_ps(minIsRights, __m128(ofMin))) * size;
+        right.max = box.max - Four(_mm_and_ps(maxIsRights, __m128(ofMax))) * size;
+#else
+        left = right = box;
+        for (uint32_t axis = 0; axis < 3; ++axis) {
+            (record.isRights(axis) ? right : left).min[axis] +=
+                float(record.inset(axis)) * stepOfSize_ * size[axis];
+            (record.isRights(axis + 3) ? right : left).max[axis] -=
+                float(record.inset(axis + 3)) * stepOfSize_ * size[axis];
+        }
+#endif
+    }
+
+    Aabb bounds_;
+    uint32_t bits_;
+    SharedArray<QuantizedRecord> records_;
+    SharedArray<uint32_t> primitives_;
+    uint32_t rootWord_;
+    uint8_t rootMore_;
+    float stepOfSize_;  // 2^-bits
+};
+static_assert(Form<QuantizedForm>);
+
+}  // namespace bvhio

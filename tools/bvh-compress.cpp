@@ -61,9 +61,10 @@ class QuantizedOptions {
                     "quantized: bits a plane");
     }
 
-    /// Adds what was given to the options for `form`, and fills in the rest.
+    /// Adds what was given to the options for `form`, and fills in the rest. For after TwoLevelOptions.
     void addTo(EncodeOptions& options, std::string_view form) {
-        if (form == QuantizedForm::kName) {
+        const bool isTop = form == TwoLevelForm::kName && options.tlasForm == TlasForm::quantized;
+        if (form == QuantizedForm::kName || isTop) {
             if (bits_ == 0) bits_ = options.bits;
             options.bits = bits_;
         } else if (bits_ != 0) {
@@ -169,8 +170,8 @@ ExitCode compress(CommandLine& line) {
 
     const auto givenEncoding = [&] {
         EncodeOptions options;
-        quantized.addTo(options, form);
         twoLevel.addTo(options, form);
+        quantized.addTo(options, form);
         mvh.addTo(options, form);
         return options;
     };

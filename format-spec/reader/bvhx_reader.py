@@ -355,21 +355,79 @@ def ssh_node(index, plane, word, box, slots, base, inherited):
     return (*box, 2 * rest + base, 0)
 
 
+def mvh_below(nodes, index, own, codes, root, used):
+    """Gives the leaf nodes[index], with insets `own`, its tree."""
+    first, count = nodes[index][6:]
+    if count <= 4:
+        return
+    leaves = -(-count // 4)
+    left = 4 * -(-leaves // 2)
+    at, pair = (first + left) // 4, len(nodes)
+    used.add(at)
+    extent = [root[i + 3] - root[i] for i in range(3)]
+    nodes[index] = (*nodes[index][:6], pair, 0)
+    boxes = []
+    for code in (codes[at] & 15, codes[at] >> 4):
+        child = list(own)
+        if code:
+            axis, kind = divmod(code - 1, 5)
+            size = (extent[axis] - own[axis]) - own[axis + 3]
+            child[axis] += (7 / 16, 1 / 4, 0, 0, 1 / 4)[kind] * size
+            child[axis + 3] += (0, 0, 7 / 16, 1 / 4, 1 / 4)[kind] * size
+        boxes.append(child)
+    for own, entries in zip(boxes, ((first, left), (first + left, count - left))):
+        box, parent = box_of(root, own), nodes[index]
+        box = [max(box[i], parent[i]) if i < 3 else min(box[i], parent[i]) for i in range(6)]
+        nodes.append((*box, *entries))
+    for child in range(2):
+        mvh_below(nodes, pair + child, boxes[child], codes, root, used)
+
+
+def insets_of(root, box):
+    own = [box[i] - root[i] if i < 3 else root[i] - box[i] for i in range(6)]
+    for i in range(6):
+        while (root[i] + own[i] > box[i]) if i < 3 else (root[i] - own[i] < box[i]):
+            own[i] = math.nextafter(own[i], -math.inf)
+    return own
+
+
 def read_two_level(chunks, slots, references):
     raw = chunks.expect("FORM", 64)
-    tlas_form, blas_form, blas_size, reserved, tlas_slots, blases = struct.unpack_from("<4s4s2I2Q", raw)
-    reject_if(reserved != 0 or any(raw[32:]), 2006, "FORM: reserved")
-    reject_if(not (2 <= tlas_slots <= slots and tlas_slots % 2 == 0 and 1 <= blases <= references and 1 <= blas_size <= 65535), 2011,
-              "FORM: counts")
-    reject_if(tlas_form != b"aabb" or blas_form not in (b"aabb", b"ssh "), 2010, "form of a level")
+    tlas_form, blas_form, blas_size, reserved, tlas_slots, blases, *root = struct.unpack_from("<4s4s2I2Q6f", raw)
+    quantized, runs = tlas_form == b"quan", blas_form == b"mvh "
+    bits, = struct.unpack_from("<I", raw, 56)
+    reject_if(reserved != 0 or any(raw[60:] if quantized else raw[32:]), 2006, "FORM: reserved")
+    reject_if(not (2 <= tlas_slots <= slots and tlas_slots % 2 == 0 and blases == tlas_slots // 2 <= references
+                   and 1 <= blas_size <= 65535), 2011, "FORM: counts")
+    reject_if(tlas_form not in (b"aabb", b"quan") or blas_form not in (b"aabb", b"ssh ", b"mvh "), 2010, "form of a level")
     reject_if(blas_form == b"ssh " and references > 2**25, 2011, "references")
+    reject_if((quantized or runs) and references > 2**29, 2011, "references")
     slots -= tlas_slots
-    raw = chunks.expect("TLAS", 32 * tlas_slots)
-    reject_if(any(raw[32:64]), 3001, "slot 1")
-    nodes = list(struct.iter_unpack("<6f2I", raw))
+    if quantized:
+        check_quantized(root, bits)
+        reject_if(tlas_slots == 2 and runs and references > 128, 2011, "a root that is a leaf")
+        nodes, insets = quantized_nodes(chunks.expect("TLAS", 8 * tlas_slots - 16), root, bits, references if runs else blases)
+    else:
+        raw = chunks.expect("TLAS", 32 * tlas_slots)
+        reject_if(any(raw[32:64]), 3001, "slot 1")
+        nodes = list(struct.iter_unpack("<6f2I", raw))
     leaves = [i for i, node in enumerate(nodes) if node[7] != 0]
     for i in leaves:
-        reject_if(nodes[i][7] != 1 or nodes[i][6] >= blases, 3004, f"leaf {i}")
+        first, count = nodes[i][6:]
+        reject_if(first + count > references if runs else count != 1 or first >= blases, 3004, f"leaf {i}")
+    for i, node in enumerate(nodes):
+        if i != 1 and node[7] == 0:
+            join_aabb(node, i, tlas_slots, 0)
+    if runs:
+        reject_if(sum(2 * (-(-nodes[i][7] // 4) - 1) for i in leaves) != slots, 2011, "slots of the BLASes")
+        codes, used = chunks.expect("BLAS", -(-references // 4)), set()
+        if not quantized:
+            root = nodes[0][:6]
+            insets = {i: insets_of(root, nodes[i][:6]) for i in leaves if all(map(math.isfinite, (*root, *nodes[i][:6])))}
+        for i in leaves:
+            mvh_below(nodes, i, insets.get(i, (0.0,) * 6), codes, root, used)
+        reject_if(any(code for at, code in enumerate(codes) if at not in used), 2006, "a byte that serves no node")
+        return nodes, chunks.expect("PRIM", 4 * references)
     if blas_form == b"aabb":
         roots = list(struct.iter_unpack("<2I", chunks.expect("ROOT", 8 * blases)))
         below = [join_aabb(n, i, slots, tlas_slots) for i, n in enumerate(struct.iter_unpack("<6f2I", chunks.expect("BLAS", 32 * slots)))]
@@ -381,11 +439,8 @@ def read_two_level(chunks, slots, references):
         for i, (plane, word) in enumerate(struct.iter_unpack("<fI", chunks.expect("BLAS", 8 * slots))):
             reject_if(i not in inherited, 3003, f"node {i} of the bottom level")
             below.append(ssh_node(i, plane, word, inherited[i], slots, tlas_slots, inherited))
-    for i, node in enumerate(nodes):
-        if i != 1 and node[7] == 0:
-            join_aabb(node, i, tlas_slots, 0)
-    for i, root in zip(leaves, whole):
-        nodes[i] = root
+    for i, node in zip(leaves, whole):
+        nodes[i] = node
     return nodes + below, chunks.expect("PRIM", 4 * references)
 
 
@@ -399,18 +454,23 @@ def float_up(x):
     return struct.unpack("<f", struct.pack("<i", bits))[0]
 
 
-def read_quantized(chunks, slots, references):
-    count = slots // 2 - 1
-    reject_if(references > 2**29 or (count == 0 and references > 128), 2011, "references")
-    raw = chunks.expect("FORM", 64)
-    reject_if(any(raw[28:]), 2006, "FORM: reserved")
-    *root, bits = struct.unpack_from("<6fI", raw)
+def check_quantized(root, bits):
     reject_if(not all(map(math.isfinite, root)) or any(root[i] > root[i + 3] for i in range(3)), 4001, "the root's box")
     reject_if(not 5 <= bits <= 8, 2019, "bits")
+
+
+def box_of(root, own):
+    """The floats within the box that insets give."""
+    return [float_up(root[i] + own[i]) for i in range(3)] + [-float_up(-(root[i] - own[i])) for i in range(3, 6)]
+
+
+def quantized_nodes(raw, root, bits, leaf_size):
+    """The nodes, and the insets of leaves by node. A root that is a leaf has leaf_size entries."""
+    count = len(raw) // 16
     extent = [root[i + 3] - root[i] for i in range(3)]
-    nodes = [(*root, 2, 0) if count else (*root, 0, references), (0,) * 8]
-    insets = {0: (0.0,) * 6}
-    for index, record in enumerate(struct.iter_unpack("<8B2I", chunks.expect("NODE", 16 * count))):
+    nodes = [(*root, 2, 0) if count else (*root, 0, leaf_size), (0,) * 8]
+    insets, leaves = {0: (0.0,) * 6}, {} if count else {0: (0.0,) * 6}
+    for index, record in enumerate(struct.iter_unpack("<8B2I", raw)):
         planes, owners, words = record[:3] + record[4:7], (record[3], record[7]), record[8:]
         reject_if(any(n >> bits for n in planes), 3010, f"record {index}")
         reject_if(index not in insets, 3003, f"record {index}")
@@ -418,8 +478,9 @@ def read_quantized(chunks, slots, references):
         steps = [((extent[i] - parent[i]) - parent[i + 3]) * 2.0**-bits for i in range(3)]
         for child, word in enumerate(words):
             own = [parent[i] + planes[i] * steps[i % 3] if owners[i // 3] >> i % 3 & 1 == child else parent[i] for i in range(6)]
-            box = [float_up(root[i] + own[i]) for i in range(3)] + [-float_up(-(root[i] - own[i])) for i in range(3, 6)]
+            box = box_of(root, own)
             if word >> 31:
+                leaves[len(nodes)] = own
                 nodes.append((*box, word & (2**29 - 1), (owners[child] >> 3 << 2 | word >> 29 & 3) + 1))
                 continue
             reject_if(owners[child] >> 3, 3010, f"record {index}")
@@ -427,7 +488,17 @@ def read_quantized(chunks, slots, references):
             reject_if(word in insets, 3003, f"record {word}")
             insets[word] = own
             nodes.append((*box, 2 * word + 2, 0))
-    return nodes, chunks.expect("PRIM", 4 * references)
+    return nodes, leaves
+
+
+def read_quantized(chunks, slots, references):
+    count = slots // 2 - 1
+    reject_if(references > 2**29 or (count == 0 and references > 128), 2011, "references")
+    raw = chunks.expect("FORM", 64)
+    reject_if(any(raw[28:]), 2006, "FORM: reserved")
+    *root, bits = struct.unpack_from("<6fI", raw)
+    check_quantized(root, bits)
+    return quantized_nodes(chunks.expect("NODE", 16 * count), root, bits, references)[0], chunks.expect("PRIM", 4 * references)
 
 
 def binary32(x):

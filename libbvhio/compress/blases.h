@@ -6,6 +6,7 @@
 #pragma once
 
 #include "compress/aabb_form.h"
+#include "compress/mvh_blases.h"
 #include "compress/ssh_form.h"
 #include "compress/two_levels.h"
 
@@ -14,10 +15,10 @@ namespace bvhio {
 /// BLASes in the aabb form.
 class AabbBlases {
   public:
-    using Form = AabbForm;
+    static constexpr std::string_view kName = AabbForm::kName;
+    static constexpr bool kAreRuns = false;
     using Cursor = AabbForm::Cursor;
     using Ray = AabbForm::Ray;
-    const PreparedRay& prepare(const PreparedRay& ray) const { return ray; }
     using Root = AabbForm::Cursor;
     static constexpr int kMaxChildren = AabbForm::kMaxChildren;
 
@@ -31,9 +32,12 @@ class AabbBlases {
     /// The nodes, then the roots.
     size_t nodeBytes() const { return form_.nodeBytes() + roots_.size() * sizeof(Root); }
 
+    static const PreparedRay& prepare(const PreparedRay& ray, const Aabb&) { return ray; }
+
     /// `leaf` and `entry` are those of a leaf of the top level.
     template <class Entry, class Metrics>
-    BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, Metrics& metrics) const {
+    BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, const Ray&,
+                                      Metrics& metrics) const {
         metrics.recordFetched(form_.nodeBytes() + leaf.first * sizeof(Root), sizeof(Root));
         return {roots_[leaf.first], entry.enter};
     }
@@ -55,10 +59,10 @@ static_assert(SteppableForm<AabbBlases>);
 /// BLASes in the ssh form.
 class SshBlases {
   public:
-    using Form = SshForm;
+    static constexpr std::string_view kName = SshForm::kName;
+    static constexpr bool kAreRuns = false;
     using Cursor = SshForm::Cursor;
     using Ray = SshForm::Ray;
-    SshRay prepare(const PreparedRay& ray) const { return SshRay(ray); }
     using Root = uint32_t;  // the word of a node whose plane says nothing
     static constexpr int kMaxChildren = SshForm::kMaxChildren;
 
@@ -72,8 +76,11 @@ class SshBlases {
     /// The nodes, then the roots.
     size_t nodeBytes() const { return form_.nodeBytes() + roots_.size() * sizeof(Root); }
 
+    static SshRay prepare(const PreparedRay& ray, const Aabb&) { return SshRay(ray); }
+
     template <class Entry, class Metrics>
-    BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, Metrics& metrics) const {
+    BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, const Ray&,
+                                      Metrics& metrics) const {
         metrics.recordFetched(form_.nodeBytes() + leaf.first * sizeof(Root), sizeof(Root));
         return {{roots_[leaf.first], entry.exit()}, entry.enter};
     }

@@ -45,8 +45,8 @@ struct NoMetrics {
 enum class MvhBuild { best, paper, given };
 
 /// Forms of the two-level form's levels, the default first.
-enum class TlasForm : uint8_t { aabb };
-enum class BlasForm : uint8_t { ssh, aabb };
+enum class TlasForm : uint8_t { quantized, aabb };
+enum class BlasForm : uint8_t { mvh, ssh, aabb };
 
 /// What forms can be told; each takes what concerns it.
 struct EncodeOptions {
@@ -70,8 +70,7 @@ struct EncodeOptions {
 /// and the culling; a form owns its Cursor (an index; an index and a decoded box; an index and ray
 /// parameters) and:
 ///
-/// - prepare: what it makes of a PreparedRay once before the traversal, its Ray; a reference to that where
-/// nothing.
+/// - Ray: what it makes of a PreparedRay once before the traversal; a reference to that where nothing.
 /// - step: from an inner node as it was entered, tests the children's boxes and writes those entered to
 /// `children`, nearest first (equal
 ///   ones in stored order); returns how many. A child is entered when its part of the ray, cut off at
@@ -82,12 +81,10 @@ struct EncodeOptions {
 ///
 /// Each record fetched and each box tested is told to the metrics.
 template <class F>
-concept SteppableForm = requires(const F form, const typename F::Cursor cursor, const PreparedRay given,
-                                 const typename F::Ray ray, float tLimit,
-                                 const Entered<typename F::Cursor> entered,
+concept SteppableForm = requires(const F form, const typename F::Cursor cursor, const typename F::Ray ray,
+                                 float tLimit, const Entered<typename F::Cursor> entered,
                                  Entered<typename F::Cursor>* children, NoMetrics metrics) {
     { F::kMaxChildren } -> std::convertible_to<int>;
-    { form.prepare(given) } -> std::same_as<typename F::Ray>;
     { form.step(entered, ray, tLimit, children, metrics) } -> std::same_as<int>;
     { form.isLeaf(cursor) } -> std::same_as<bool>;
     { form.primitiveRange(cursor) } -> std::same_as<PrimitiveRange>;
@@ -110,11 +107,13 @@ concept StoredForm = requires(const F form, const Scene scene, const Bvh bvh, co
 
 /// A form whose nodes, from the root down, are all stepped through alike:
 ///
+/// - prepare: makes its Ray of a PreparedRay.
 /// - enterRoot: tests the root's box; false when the ray misses it. Else `root` is where traversal starts.
 template <class F>
 concept Form = StoredForm<F> && SteppableForm<F> &&
-    requires(const F form, const typename F::Ray ray, float tLimit, Entered<typename F::Cursor>& root,
-             NoMetrics metrics) {
+    requires(const F form, const PreparedRay given, const typename F::Ray ray, float tLimit,
+             Entered<typename F::Cursor>& root, NoMetrics metrics) {
+    { form.prepare(given) } -> std::same_as<typename F::Ray>;
     { form.enterRoot(ray, tLimit, root, metrics) } -> std::same_as<bool>;
 };
 

@@ -32,6 +32,21 @@ class InsetFrame {
     double minPlane(double inset, int axis) const { return bounds_.min[axis] + inset; }
     double maxPlane(double inset, int axis) const { return bounds_.max[axis] - inset; }
 
+    /// The insets of a box within the root's: at most what they are exactly.
+    InsetBox insets(const Aabb& box) const {
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        InsetBox result;
+        for (int axis = 0; axis < 3; ++axis) {
+            result.min[axis] = double(box.min[axis]) - bounds_.min[axis];
+            result.max[axis] = double(bounds_.max[axis]) - box.max[axis];
+            while (minPlane(result.min[axis], axis) > box.min[axis])
+                result.min[axis] = std::nextafter(result.min[axis], -kInfinity);
+            while (maxPlane(result.max[axis], axis) < box.max[axis])
+                result.max[axis] = std::nextafter(result.max[axis], -kInfinity);
+        }
+        return result;
+    }
+
     /// The largest box of floats that lies in the box: every box of floats that lies in it lies in that.
     Aabb floats(const InsetBox& box) const {
         Aabb result;

@@ -100,7 +100,7 @@ QuantizedForm QuantizedForm::encode(const Scene&, const Bvh& given, const Encode
     return {bounds, options.bits, std::move(records).share(), bvh.primitives};
 }
 
-Bvh QuantizedForm::decode() const {
+Bvh QuantizedForm::decode(InsetBox* insets) const {
     const InsetFrame frame(bounds_);
     Buffer<Node> nodes(2 * records_.size() + 2);
     nodes[0] = {bounds_, 2, 0};
@@ -113,6 +113,7 @@ Bvh QuantizedForm::decode() const {
         for (uint32_t child = 0; child < 2; ++child) {
             const InsetBox box = grid.child(record, child);
             const uint32_t word = record.children[child];
+            if (insets != nullptr) insets[2 * r + 2 + child] = box;
             Node& node = nodes[2 * r + 2 + child];
             node.bounds = frame.floats(box);
             if (QuantizedRecord::isLeaf(word)) {

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "compress/form_concept.h"
+#include "compress/inset_box.h"
 #include "compress/ray_frame.h"
 
 #if defined(__SSE2__)
@@ -84,7 +85,9 @@ class QuantizedForm {
     /// O(n). Leaves of more than 128 triangles are halved. Throws Error{unsupported} above 2^29 references.
     static QuantizedForm encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options);
 
-    Bvh decode() const;
+    Bvh decode() const { return decode(nullptr); }
+    /// The boxes as insets, too, by node: `insets` has room for two more than twice the records.
+    Bvh decode(InsetBox* insets) const;
     const Aabb& bounds() const { return bounds_; }
     uint32_t bits() const { return bits_; }
     const SharedArray<QuantizedRecord>& records() const { return records_; }

@@ -107,6 +107,25 @@ class RayFrame {
     const PreparedRay& ray() const { return ray_; }
     const PlacedBox& root() const { return root_; }
 
+    /// Another box within the root's. For the lemma it is as good a start as the root's: no more is rounded,
+    /// and its places are no larger.
+    PlacedBox place(const Aabb& box) const {
+        Four first{box.min.x - ray_.origin.x, box.min.y - ray_.origin.y, box.min.z - ray_.origin.z, 0};
+        Four last{box.max.x - ray_.origin.x, box.max.y - ray_.origin.y, box.max.z - ray_.origin.z, 0};
+        if (regular_) {
+            const Four reciprocal = 1.0f / Four{ray_.direction.x, ray_.direction.y, ray_.direction.z, 1};
+            first *= reciprocal;
+            last *= reciprocal;
+        } else {
+            for (int axis = 0; axis < 3; ++axis)
+                if (unbounded_[size_t(axis)] != 0) first[axis] = last[axis] = 0;
+        }
+        const Four margin = twiceMargin_ * 0.5f;
+        PlacedBox placed{first - margin, last - margin};
+        placed.min[3] = placed.max[3] = root_.min[3];
+        return placed;
+    }
+
     /// How far a box's planes lie apart; negative where the ray goes down an axis, 0 in lane 3.
     static BVHIO_INLINE Four size(const PlacedBox& box) { return box.max - box.min; }
 

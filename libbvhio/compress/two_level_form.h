@@ -23,8 +23,8 @@ class TwoLevelForm {
         "a top level over many small trees, each in a form of its own";
 
     /// In the order of TlasForm and BlasForm.
-    using Tlas = std::variant<AabbTlas>;
-    using Blases = std::variant<SshBlases, AabbBlases>;
+    using Tlas = std::variant<QuantizedTlas, AabbTlas>;
+    using Blases = std::variant<MvhBlases, SshBlases, AabbBlases>;
 
     /// Leaves of `tlas` have one entry each: the index of a BLAS. As in format-spec/two-level.md.
     TwoLevelForm(Tlas tlas, Blases blases, SharedArray<uint32_t> primitives, uint32_t blasSize)
@@ -56,7 +56,7 @@ static_assert(StoredForm<TwoLevelForm>);
 namespace detail {
 template <class... Levels>
 constexpr std::array<std::string_view, sizeof...(Levels)> formNames(const std::variant<Levels...>*) {
-    return {Levels::Form::kName...};
+    return {Levels::kName...};
 }
 }  // namespace detail
 

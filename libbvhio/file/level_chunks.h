@@ -6,6 +6,7 @@
 
 #include "compress/two_level_form.h"
 #include "file/chunks.h"
+#include "file/quantized_chunks.h"
 #include "file/ssh_chunks.h"
 
 namespace bvhio {
@@ -22,7 +23,22 @@ struct LevelChunks;
 /// What FORM says of both levels.
 struct LevelCounts {
     uint64_t references = 0, tlasSlots = 0, blases = 0, blasSlots = 0;
+    bool areRuns = false;               // leaves of the top level own primitives, not the index of a BLAS
+    Aabb bounds{{0, 0, 0}, {0, 0, 0}};  // of a quantized top level's root
+    uint32_t bits = 0;
 };
+
+/// Throws unless a leaf of the top level names a BLAS, or primitives.
+inline void checkLeaf(const ChunkSequence& chunks, const std::string& name, PrimitiveRange leaf,
+                      const LevelCounts& counts) {
+    if (counts.areRuns ? uint64_t(leaf.first) + leaf.count > counts.references
+                       : leaf.count != 1 || leaf.first >= counts.blases)
+        chunks.fail(FindingId::leafRange,
+                    name + " of the top level names " + std::to_string(leaf.count) +
+                        (counts.areRuns ? " entries from " : " BLASes from ") + std::to_string(leaf.first) +
+                        " on: there are " +
+                        std::to_string(counts.areRuns ? counts.references : counts.blases));
+}
 
 /// Throws unless children start at an index in (parent, slots).
 inline void checkChildren(const ChunkSequence& chunks, const std::string& parent, int64_t index,
@@ -45,6 +61,8 @@ struct LevelChunks<AabbTlas> {
     static constexpr uint32_t kNodesChunk = kTlasType;
     static constexpr size_t kNodeSize = sizeof(Node);
 
+    static uint64_t nodesOffset(uint64_t payloadOffset) { return payloadOffset; }
+    static void describe(const AabbTlas&, LevelCounts&) {}
     static uint64_t slots(const AabbTlas& tlas) { return tlas.form().bvh().nodes.size(); }
     static void write(ContainerWriter& writer, const AabbTlas& tlas) {
         writeArrayChunk(writer, kTlasType, tlas.form().bvh().nodes);
@@ -58,14 +76,71 @@ struct LevelChunks<AabbTlas> {
                     chunks.fail(FindingId::unusedSlot, "the unused slot 1 beside the root is not zero");
             } else if (!node.isLeaf()) {
                 checkChildren(chunks, nodeName(i), int64_t(i), node.left(), nodes.size());
-            } else if (node.primitiveCount != 1 || node.first >= counts.blases) {
-                chunks.fail(FindingId::leafRange, nodeName(i) + " of the top level names " +
-                                                      std::to_string(node.primitiveCount) + " BLASes from " +
-                                                      std::to_string(node.first) + " on: not one of " +
-                                                      std::to_string(counts.blases));
+            } else {
+                checkLeaf(chunks, nodeName(i), {node.first, node.primitiveCount}, counts);
             }
         }
         return AabbTlas(AabbForm({std::move(nodes), {}}));
+    }
+};
+
+template <>
+struct LevelChunks<QuantizedTlas> {
+    using OfForm = FormChunks<QuantizedForm>;
+    static constexpr uint32_t kCode = OfForm::kCode;
+    static constexpr uint32_t kNodesChunk = kTlasType;
+    static constexpr size_t kNodeSize = sizeof(QuantizedRecord) / 2;
+
+    /// Node 2 r + 2 is the first half of record r: the root and its unused neighbour come before.
+    static uint64_t nodesOffset(uint64_t payloadOffset) { return payloadOffset - 2 * kNodeSize; }
+    static void describe(const QuantizedTlas& tlas, LevelCounts& counts) {
+        counts.bounds = tlas.bounds();
+        counts.bits = tlas.form().bits();
+    }
+    static uint64_t slots(const QuantizedTlas& tlas) { return 2 * tlas.form().records().size() + 2; }
+    static void write(ContainerWriter& writer, const QuantizedTlas& tlas) {
+        writeArrayChunk(writer, kTlasType, tlas.form().records());
+    }
+    static QuantizedTlas read(ChunkSequence& chunks, const LevelCounts& counts) {
+        if (counts.references > QuantizedRecord::kMaxReferences)
+            chunks.fail(FindingId::treeCounts, "a quantized top level is over at most 2^29 references");
+        OfForm::checkParameters(chunks, counts.bounds, counts.bits);
+        const size_t count = counts.tlasSlots / 2 - 1;
+        if (count == 0 && counts.areRuns && counts.references > QuantizedRecord::kMaxLeafSize)
+            chunks.fail(FindingId::treeCounts, "a leaf of a quantized top level has at most 128 references");
+        auto records = chunks.expectArray<QuantizedRecord>(kTlasType, count);
+        for (size_t i = 0; i < count; ++i) {
+            OfForm::checkRecord(chunks, records[i], i, count, counts.bits);
+            for (uint32_t child = 0; child < 2; ++child) {
+                const uint32_t word = records[i].children[child];
+                if (QuantizedRecord::isLeaf(word))
+                    checkLeaf(chunks, nodeName(2 * i + 2 + child),
+                              {QuantizedRecord::firstPrimitive(word),
+                               QuantizedRecord::primitiveCount(word, records[i].more(child))},
+                              counts);
+            }
+        }
+        // A root that is a leaf owns all there is.
+        return QuantizedTlas(QuantizedForm(counts.bounds, counts.bits, std::move(records),
+                                           std::vector<uint32_t>(count > 0        ? 0
+                                                                 : counts.areRuns ? counts.references
+                                                                                  : counts.blases)));
+    }
+};
+
+template <>
+struct LevelChunks<MvhBlases> {
+    static constexpr uint32_t kCode = chunkType("mvh ");
+    static constexpr uint32_t kNodesChunk = kBlasType;
+    static constexpr size_t kNodeSize = 0;  // no node is anywhere by itself
+
+    static void write(ContainerWriter& writer, const MvhBlases& blases) {
+        writeArrayChunk(writer, kBlasType, blases.codes());
+    }
+    static MvhBlases read(ChunkSequence& chunks, const LevelCounts& counts) {
+        if (counts.references > QuantizedRecord::kMaxReferences)
+            chunks.fail(FindingId::treeCounts, "mvh BLASes have at most 2^29 references");
+        return MvhBlases(chunks.expectArray<uint8_t>(kBlasType, MvhBlases::byteCount(counts.references)));
     }
 };
 

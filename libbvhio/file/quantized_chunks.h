@@ -34,14 +34,10 @@ struct FormChunks<QuantizedForm> {
         Aabb bounds;
         for (Vec3* corner : {&bounds.min, &bounds.max})
             for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.f32();
-        if (bounds.isEmpty() || !isFinite(bounds.min) || !isFinite(bounds.max))
-            chunks.fail(FindingId::boxNotFinite, "the root's box is not finite or has min > max");
         const uint32_t bits = reader.u32();
         if (!reader.skipZeros(reader.remaining()))
             chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
-        if (bits < QuantizedRecord::kMinBits || bits > QuantizedRecord::kMaxBits)
-            chunks.fail(FindingId::formParameter,
-                        "planes of " + std::to_string(bits) + " bits: 5 to 8 are known");
+        checkParameters(chunks, bounds, bits);
         const size_t count = parameters.nodeSlots / 2 - 1;
         SharedArray<QuantizedRecord> records = chunks.expectArray<QuantizedRecord>(kNodesType, count);
         for (size_t i = 0; i < count; ++i) checkRecord(chunks, records[i], i, count, bits);
@@ -54,7 +50,13 @@ struct FormChunks<QuantizedForm> {
         return form;
     }
 
-  private:
+    static void checkParameters(const ChunkSequence& chunks, const Aabb& bounds, uint32_t bits) {
+        if (bounds.isEmpty() || !isFinite(bounds.min) || !isFinite(bounds.max))
+            chunks.fail(FindingId::boxNotFinite, "the root's box is not finite or has min > max");
+        if (bits < QuantizedRecord::kMinBits || bits > QuantizedRecord::kMaxBits)
+            chunks.fail(FindingId::formParameter,
+                        "planes of " + std::to_string(bits) + " bits: 5 to 8 are known");
+    }
     /// Whatever must hold before the tree can be decoded at all.
     static void checkRecord(const ChunkSequence& chunks, const QuantizedRecord& record, size_t index,
                             size_t count, uint32_t bits) {

@@ -28,8 +28,13 @@ struct FormChunks<TwoLevelForm> {
                 bytes.u32(BlasChunks::kCode);
                 bytes.u32(form.options().blasSize);
                 bytes.zeros(4);
+                LevelCounts counts;
+                TlasChunks::describe(tlas, counts);
                 bytes.u64(TlasChunks::slots(tlas));
-                bytes.u64(blases.roots().size());
+                bytes.u64(TlasChunks::slots(tlas) / 2);
+                for (const Vec3& corner : {counts.bounds.min, counts.bounds.max})
+                    for (int axis = 0; axis < 3; ++axis) bytes.f32(corner[axis]);
+                bytes.u32(counts.bits);
                 bytes.zeros(kFormSize - bytes.bytes().size());
                 writeChunk(writer, kFormType, bytes.bytes());
                 TlasChunks::write(writer, tlas);
@@ -48,11 +53,17 @@ struct FormChunks<TwoLevelForm> {
         counts.references = parameters.references;
         counts.tlasSlots = reader.u64();
         counts.blases = reader.u64();
+        counts.areRuns = blasCode == LevelChunks<MvhBlases>::kCode;
+        if (tlasCode == LevelChunks<QuantizedTlas>::kCode) {
+            for (Vec3* corner : {&counts.bounds.min, &counts.bounds.max})
+                for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.f32();
+            counts.bits = reader.u32();
+        }
         counts.blasSlots = parameters.nodeSlots - counts.tlasSlots;
         zero &= reader.skipZeros(reader.remaining());
         if (!zero) chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
         if (counts.tlasSlots < 2 || counts.tlasSlots % 2 != 0 || counts.tlasSlots > parameters.nodeSlots ||
-            counts.blases == 0 || counts.blases > parameters.references || blasSize == 0 ||
+            counts.blases != counts.tlasSlots / 2 || counts.blases > parameters.references || blasSize == 0 ||
             blasSize > kMaxBlasSize)
             chunks.fail(FindingId::treeCounts, std::to_string(counts.tlasSlots) + " slots over " +
                                                    std::to_string(counts.blases) + " BLASes of at most " +
@@ -62,6 +73,7 @@ struct FormChunks<TwoLevelForm> {
 
         auto [tlas, tlasPlace] = readLevel<TwoLevelForm::Tlas>(chunks, tlasCode, counts);
         auto [blases, blasPlace] = readLevel<TwoLevelForm::Blases>(chunks, blasCode, counts);
+        if (counts.areRuns) checkRuns(chunks, tlas, std::get<MvhBlases>(blases), counts);
         TwoLevelForm form(std::move(tlas), std::move(blases),
                           chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references), blasSize);
         judgeTree(chunks, form.decode(), parameters, scene, [&](uint64_t node) {
@@ -71,6 +83,35 @@ struct FormChunks<TwoLevelForm> {
     }
 
   private:
+    /// Whether the trees over the top level's leaves have as many slots as TREE says, and bytes that serve
+    /// none are zero.
+    static void checkRuns(const ChunkSequence& chunks, const TwoLevelForm::Tlas& tlas,
+                          const MvhBlases& blases, const LevelCounts& counts) {
+        const Bvh top = std::visit([](const auto& level) { return level.form().decode(); }, tlas);
+        uint64_t slots = 0;
+        for (const Node& node : top.nodes)
+            if (node.isLeaf()) slots += 2 * (MvhRun{node.first, node.primitiveCount}.leafCount() - 1);
+        if (slots != counts.blasSlots)
+            chunks.fail(FindingId::treeCounts, "the BLASes have " + std::to_string(slots) +
+                                                   " slots, TREE leaves " + std::to_string(counts.blasSlots));
+        std::vector<bool> serves(blases.codes().size());
+        std::vector<MvhRun> waiting;
+        for (const Node& node : top.nodes)
+            if (node.isLeaf()) waiting.push_back({node.first, node.primitiveCount});
+        while (!waiting.empty()) {
+            const MvhRun run = waiting.back();
+            waiting.pop_back();
+            if (run.isLeaf()) continue;
+            serves[run.codes()] = true;
+            waiting.push_back(run.left());
+            waiting.push_back(run.right());
+        }
+        for (size_t i = 0; i < serves.size(); ++i)
+            if (!serves[i] && blases.codes()[i] != 0)
+                chunks.fail(FindingId::payloadReserved,
+                            "byte " + std::to_string(i) + " serves no node and is not zero");
+    }
+
     /// Reads the level whose form has the code, and tells where its nodes are.
     template <class Variant, size_t I = 0>
     static std::pair<Variant, NodesPlace> readLevel(ChunkSequence& chunks, uint32_t code,
@@ -82,7 +123,9 @@ struct FormChunks<TwoLevelForm> {
             using Chunks = LevelChunks<std::variant_alternative_t<I, Variant>>;
             if (Chunks::kCode == code) {
                 Variant level = Chunks::read(chunks, counts);
-                return {std::move(level), {Chunks::kNodesChunk, chunks.payloadOffset(), Chunks::kNodeSize}};
+                uint64_t offset = chunks.payloadOffset();
+                if constexpr (requires { Chunks::nodesOffset(offset); }) offset = Chunks::nodesOffset(offset);
+                return {std::move(level), {Chunks::kNodesChunk, offset, Chunks::kNodeSize}};
             }
             return readLevel<Variant, I + 1>(chunks, code, counts);
         }

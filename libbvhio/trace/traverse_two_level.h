@@ -29,12 +29,23 @@ struct TraverseBlas {
 
     HWY_INLINE bool operator()(const Entered<typename Tlas::Cursor>& leaf) const {
         const auto root = blases.root(tlas.primitiveRange(leaf.cursor),
-                                      tlas.entry(leaf, tlasRay, query.boxLimit()), metrics);
+                                      tlas.entry(leaf, tlasRay, query.boxLimit()), blasRay, metrics);
         return traverseFrom(
             blases, root, blasRay, query, metrics,
             TestTriangles<Blases, Source, Query, Metrics>{blases, source, ray, query, metrics});
     }
 };
+
+template <class Tlas, class Blases, class Source, class Query, class Metrics>
+HWY_INLINE void traverseBelow(const Tlas& tlas, const typename Tlas::Ray& tlasRay,
+                              const Entered<typename Tlas::Cursor>& root, const Blases& blases,
+                              const typename Blases::Ray& blasRay, const Source& source,
+                              const PreparedRay& ray, Query& query, Metrics& metrics) {
+    MetricsBehind<Metrics> behind{metrics, tlas.form().nodeBytes()};
+    traverseFrom(tlas, root, tlasRay, query, metrics,
+                 TraverseBlas<Tlas, Blases, Source, Query, MetricsBehind<Metrics>>{
+                     tlas, blases, source, ray, tlasRay, blasRay, query, behind});
+}
 
 /// Not inlined: there is one for each pair of forms, and the choice is made once a ray.
 template <class Tlas, class Blases, class Source, class Query, class Metrics>
@@ -43,11 +54,11 @@ HWY_NOINLINE void traverseLevels(const Tlas& tlas, const Blases& blases, const S
     const typename Tlas::Ray tlasRay = tlas.prepare(ray);
     Entered<typename Tlas::Cursor> root;
     if (!tlas.enterRoot(tlasRay, query.boxLimit(), root, metrics)) return;
-    const typename Blases::Ray blasRay = blases.prepare(ray);
-    MetricsBehind<Metrics> behind{metrics, tlas.form().nodeBytes()};
-    traverseFrom(tlas, root, tlasRay, query, metrics,
-                 TraverseBlas<Tlas, Blases, Source, Query, MetricsBehind<Metrics>>{
-                     tlas, blases, source, ray, tlasRay, blasRay, query, behind});
+    if constexpr (std::is_same_v<typename Tlas::Ray, typename Blases::Ray>)
+        traverseBelow(tlas, tlasRay, root, blases, tlasRay, source, ray, query, metrics);
+    else
+        traverseBelow(tlas, tlasRay, root, blases, blases.prepare(ray, tlas.bounds()), source, ray, query,
+                      metrics);
 }
 
 template <class Source, class Query, class Metrics>

@@ -479,6 +479,31 @@ def shared_record(f):
     f.patch("NODE", 12, "I", struct.unpack_from("<I", f["NODE"].raw, 8)[0])
 
 
+# The same with a quantized top level over mvh BLASes: TLAS has records of 16 bytes, BLAS a byte for every four triangles
+OVER_MVH, ONE_MVH = "grid_quantized_over_mvh", "two_triangles_over_mvh"
+
+
+def leaf_word(f):
+    """Where the first leaf's word is."""
+    raw = f["TLAS"].raw
+    return next(at for r in range(0, len(raw), 16) for at in (r + 8, r + 12) if raw[at + 3] >> 7)
+
+
+two_level_case(2006, "reserved_60", "FORM", 60, "I", 1, base=OVER_MVH)
+two_level_case(2006, "box_of_aabb", "FORM", 32, "f", 1.0)
+two_level_case(2006, "byte_of_no_node", "BLAS", 0, "B", 1, base=OVER_MVH)
+simple(2011, "two_level_mvh_slots", lambda f: f.patch("TREE", 8, "Q", struct.unpack_from("<Q", f["TREE"].raw, 8)[0] + 2), OVER_MVH)
+simple(2011, "two_level_mvh_references", lambda f: f.patch("TREE", 16, "Q", 2**29 + 1), OVER_MVH)
+simple(2011, "two_level_mvh_large_root", lambda f: f.patch("TREE", 8, "2Q", 2 + 2 * 32, 129), ONE_MVH)
+simple(2005, "two_level_mvh_bytes", lambda f: f.replace("BLAS", f["BLAS"].raw + b"\0"), OVER_MVH)
+two_level_case(2019, "bits_4", "FORM", 56, "I", 4, base=OVER_MVH)
+two_level_case(2019, "bits_9", "FORM", 56, "I", 9, base=OVER_MVH)
+two_level_case(3002, "own_record", "TLAS", 8, "I", 0, base=OVER_MVH)
+simple(3004, "two_level_mvh_run", lambda f: f.patch("TLAS", leaf_word(f), "I", struct.unpack_from("<I", f["TLAS"].raw, leaf_word(f))[0] & 7 << 29 | 72), OVER_MVH)
+simple(3004, "two_level_no_such_blas_quantized", lambda f: f.patch("TLAS", leaf_word(f), "I", 1 << 31 | 71), "grid_quantized_over_ssh")
+two_level_case(4001, "nan_root", "FORM", 32, "f", float("nan"), base=OVER_MVH)
+simple(4003, "two_level_mvh_cuts", lambda f: f.patch("BLAS", next(i for i, b in enumerate(f["BLAS"].raw) if b), "B", 0xB1), OVER_MVH)
+
 simple(4004, "nan_vertex", lambda f: f.patch("VERT", 4, "f", float("nan")))
 simple(4004, "infinite_vertex", lambda f: f.patch("VERT", 44, "f", float("inf")))
 simple(4005, "negative_zero", lambda f: f.patch("VERT", 0, "f", -0.0))

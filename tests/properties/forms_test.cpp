@@ -41,10 +41,15 @@ TEST_P(FormsOfScene, decodeToValidTreesThatHoldTheOriginal) {
                      validate(decoded, uint32_t(scene.triangles.size()), boundsOfTriangles(scene)).findings)
                     ADD_FAILURE() << finding.message;
                 ASSERT_TRUE(decoded.nodes[0].bounds.contains(bvh.nodes[0].bounds));
-                // Once decoded, boxes do not grow further.
-                const EncodedBvh again = form.function(scene, decoded, {});
-                EXPECT_EQ(boundsHash(decode(again)), boundsHash(decoded));
-                if (form.name == MvhForm::kName) continue;  // it has a tree of its own
+                // Once decoded, boxes do not grow further. (Parts of triangles are taken anew from leaves
+                // that grew.)
+                const bool isSplit = bvh.primitives.size() != scene.triangles.size();
+                if (!isSplit || form.name != TwoLevelForm::kName) {
+                    const EncodedBvh again = form.function(scene, decoded, {});
+                    EXPECT_EQ(boundsHash(decode(again)), boundsHash(decoded));
+                }
+                // It has a tree of its own, or BLASes have.
+                if (form.name == MvhForm::kName || form.name == TwoLevelForm::kName) continue;
                 ASSERT_TRUE(std::equal(bvh.primitives.begin(), bvh.primitives.end(),
                                        decoded.primitives.begin(), decoded.primitives.end()));
                 const std::vector<Aabb> boxes = leafBoxes(bvh), decodedBoxes = leafBoxes(decoded);

@@ -1,0 +1,114 @@
+#include "compress/two_level_form.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "build/builders.h"
+#include "common/test_rays.h"
+#include "common/test_scenes.h"
+#include "stats/hashes.h"
+#include "trace/trace.h"
+
+namespace bvhio {
+namespace {
+
+Scene soup() {
+    return test::sceneOf(test::randomTriangles(700, 5, 0.1f));
+}
+
+EncodeOptions optionsFor(TlasForm tlas, BlasForm blas, uint32_t blasSize) {
+    EncodeOptions options;
+    options.tlasForm = tlas;
+    options.blasForm = blas;
+    options.blasSize = blasSize;
+    return options;
+}
+
+uint32_t primitivesBelow(const Bvh& bvh, const Node& node) {
+    if (node.isLeaf()) return node.primitiveCount;
+    return primitivesBelow(bvh, bvh.nodes[node.left()]) + primitivesBelow(bvh, bvh.nodes[node.right()]);
+}
+
+// A cut that takes subtrees too large, or stops before the largest, changes neither hits nor the joined tree.
+TEST(TwoLevels, cutOffTheLargestSubtreesThatAreSmallEnough) {
+    const Bvh bvh = builders()[0].function(soup(), {.costs = {}, .maxLeafSize = 3});
+    const TwoLevels levels = cutTree(bvh, 20);
+    const Bvh joined = joinLevels(levels, bvh.primitives);
+    EXPECT_EQ(topologyHash(joined), topologyHash(bvh));
+    EXPECT_EQ(levels.bottom.roots.size(), levels.top.nodes.size() / 2);
+    for (size_t i = 0; i < levels.top.nodes.size(); ++i)
+        if (i != 1) {
+            EXPECT_EQ(primitivesBelow(joined, joined.nodes[i]) <= 20, levels.top.nodes[i].isLeaf()) << i;
+        }
+}
+
+// Trees share one array of codes without a table: no two nodes may have the same byte.
+TEST(MvhRun, givesEachInnerNodeAByteOfItsOwn) {
+    for (const uint32_t start : {0u, 1u, 2u, 3u})
+        for (uint32_t count = 1; count < 40; ++count) {
+            std::set<uint32_t> bytes;
+            size_t inner = 0;
+            const uint32_t total = start + 3 * count;
+            std::vector<MvhRun> waiting;
+            for (uint32_t tree = 0; tree < 3; ++tree) waiting.push_back({start + tree * count, count});
+            while (!waiting.empty()) {
+                const MvhRun run = waiting.back();
+                waiting.pop_back();
+                if (run.isLeaf()) continue;
+                ++inner;
+                bytes.insert(run.codes());
+                EXPECT_EQ(run.left().count + run.right().count, run.count);
+                waiting.push_back(run.left());
+                waiting.push_back(run.right());
+            }
+            EXPECT_EQ(bytes.size(), inner) << start << ' ' << count;
+            if (!bytes.empty()) {
+                EXPECT_LT(*bytes.rbegin(), MvhBlases::byteCount(total));
+            }
+        }
+}
+
+TEST(MvhBlases, takeAByteForFourTriangles) {
+    const Scene scene = test::sphereScene(60, 30);
+    const Bvh bvh = builders()[0].function(scene, {.costs = {}, .maxLeafSize = 1});
+    const TwoLevelForm form =
+        TwoLevelForm::encode(scene, bvh, optionsFor(TlasForm::quantized, BlasForm::mvh, 16));
+    EXPECT_EQ(form.nodeBytes() - form.tlasBytes(), (scene.triangles.size() + 3) / 4);
+    EXPECT_LT(double(form.nodeBytes()), 2.0 * double(scene.triangles.size()));
+}
+
+// Both levels count, and leaves of the top level are no leaves.
+TEST(TwoLevelForm, countsWhatOneTreeCounts) {
+    const Scene scene = soup();
+    const Bvh bvh = builders()[0].function(scene, {});
+    const std::vector<Ray> rays = test::awkwardRays(scene, 1, 10);
+    const EncodedBvh one = AabbForm(bvh);
+    const EncodedBvh two = TwoLevelForm::encode(scene, bvh, optionsFor(TlasForm::aabb, BlasForm::aabb, 16));
+    const TraversalCounts a = Tracer(scene, one).measure(rays, Query::closest).counts;
+    const TraversalCounts b = Tracer(scene, two).measure(rays, Query::closest).counts;
+    EXPECT_EQ(a.boxTests, b.boxTests);
+    EXPECT_EQ(a.leaves, b.leaves);
+    EXPECT_EQ(a.triangleTests, b.triangleTests);
+    EXPECT_EQ(a.stackOperations, b.stackOperations);
+    EXPECT_GT(b.records, a.records);  // roots
+}
+
+// Boxes that rays see must be those that decode tells: a byte too far and a triangle is lost, so a code that
+// cuts what its leaf needs must not be chosen.
+TEST(MvhBlases, everyCodeLeavesTheOtherAxesAlone) {
+    const InsetFrame frame({{0, 0, 0}, {16, 32, 64}});
+    for (uint32_t code = 0; code < kMvhCodes; ++code) {
+        const Aabb box = frame.floats(cutBox(frame, {}, code));
+        int changed = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            changed += box.min[axis] != 0 || box.max[axis] != frame.bounds().max[axis];
+        EXPECT_EQ(changed, code == 0 ? 0 : 1) << code;
+    }
+    EXPECT_EQ(frame.floats(cutBox(frame, {}, 1)), (Aabb{{7, 0, 0}, {16, 32, 64}}));
+    EXPECT_EQ(frame.floats(cutBox(frame, {}, 9)), (Aabb{{0, 0, 0}, {16, 24, 64}}));
+    EXPECT_EQ(frame.floats(cutBox(frame, {}, 15)), (Aabb{{0, 0, 16}, {16, 32, 48}}));
+}
+
+}  // namespace
+}  // namespace bvhio

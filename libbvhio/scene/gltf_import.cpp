@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 
 #include "core/error.h"
 #include "scene/gltf_primitive.h"
@@ -135,21 +136,28 @@ class SceneReader {
         if (extension == node.extensions.end()) return {world};
         const std::string where = "node " + std::to_string(number) + ": EXT_mesh_gpu_instancing ";
         const tinygltf::Value& attributes = extension->second.Get("attributes");
-        size_t count = 0;
-        bool counted = false;
-        const auto read = [&](const char* key, int components) -> std::vector<float> {
-            if (!attributes.IsObject() || !attributes.Has(key)) return {};
+        if (!attributes.IsObject() || attributes.Size() == 0) fail(where + "has no attributes");
+        const auto countOf = [&](const std::string& key) {
             const tinygltf::Value& accessor = attributes.Get(key);
             if (!accessor.IsInt()) fail(where + "has a " + key + " that is no accessor");
-            const size_t elements = accessors_.count(accessor.Get<int>());
-            if (counted && elements != count) fail(where + "has attributes of different lengths");
-            counted = true;
-            count = elements;
-            return accessors_.readNumbers(accessor.Get<int>(), components);
+            return accessors_.count(accessor.Get<int>());
+        };
+        std::optional<size_t> common;
+        for (const char* key : {"TRANSLATION", "ROTATION", "SCALE"}) {
+            if (!attributes.Has(key)) continue;
+            const size_t elements = countOf(key);
+            if (common && elements != *common) fail(where + "has attributes of different lengths");
+            common = elements;
+        }
+        // Without those, one that is the application's own tells how many instances there are.
+        if (!common) common = countOf(attributes.Keys().front());
+        const size_t count = *common;
+        const auto read = [&](const char* key, int components) -> std::vector<float> {
+            if (!attributes.Has(key)) return {};
+            return accessors_.readNumbers(attributes.Get(key).Get<int>(), components);
         };
         const std::vector<float> translations = read("TRANSLATION", 3), rotations = read("ROTATION", 4),
                                  scales = read("SCALE", 3);
-        if (!counted) return {world};
         buffers_.spend(count * sizeof(Transform) / 4);
         const float zero[3] = {0, 0, 0}, one[3] = {1, 1, 1}, unturned[4] = {0, 0, 0, 1};
         std::vector<Transform> places;

@@ -26,6 +26,8 @@ std::string glb(std::string json, std::string binary) {
 }
 
 const std::string kHead = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":BYTES}],)";
+const std::string kMeshAndScene =
+    R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"scenes":[{"nodes":[0]}],)";
 const std::string kOneNode = R"("nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],)";
 
 std::string floats(std::initializer_list<float> values) {
@@ -234,6 +236,42 @@ TEST(Gltf, placesInstancesOfOneNode) {
     EXPECT_EQ(scene.instances[0].transform, (Transform{3, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 1}));
     EXPECT_EQ(scene.instances[1].transform, (Transform{0, 0, 0, 3, 0, 1, 0, 2, 0, 0, 0, 3}));
     EXPECT_NE(refusal(file(3), "x.glb").find("different lengths"), std::string::npos);
+}
+
+// Accessors: 0 = five VEC3, 1 = five indices, 2 = two VEC3, 3 = two quaternions of normalised bytes.
+TEST(Gltf, readsAnyAttributesOfInstancesOrSaysWhatIsWrong) {
+    const auto file = [](const std::string& extension) {
+        return glb(
+            kHead +
+                R"("bufferViews":[{"buffer":0,"byteLength":60},{"buffer":0,"byteOffset":60,"byteLength":8}],
+            "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+                         {"bufferView":1,"componentType":5121,"count":2,"type":"SCALAR"},
+                         {"bufferView":0,"byteOffset":12,"componentType":5126,"count":2,"type":"VEC3"},
+                         {"bufferView":1,"componentType":5120,"normalized":true,"count":2,"type":"VEC4"},
+                         {"componentType":5121,"count":4503599627370496,"type":"SCALAR"}],)" +
+                kMeshAndScene + R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":)" + extension +
+                "}}]}",
+            kCorners + std::string("\0\0\0\x7F\0\0\x7F\0", 8));
+    };
+    const ImportedScene turned = importText(file(R"({"attributes":{"ROTATION":3}})"), "x.glb");
+    ASSERT_EQ(turned.instances.size(), 2u);
+    EXPECT_EQ(turned.instances[0].transform, kIdentityTransform);
+    EXPECT_EQ(turned.instances[1].transform, (Transform{-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0}));
+    EXPECT_EQ(importText(file(R"({"attributes":{"_ID":1}})"), "x.glb").instances.size(), 2u);
+
+    for (const auto& [extension, message] :
+         {std::pair<std::string, std::string>{R"({})", "has no attributes"},
+          {R"({"attributes":{}})", "has no attributes"},
+          {R"({"attributes":[2]})", "has no attributes"},
+          {R"({"attributes":{"TRANSLATION":"2"}})", "has a TRANSLATION that is no accessor"},
+          {R"({"attributes":{"TRANSLATION":9}})", "the file has no such accessor"},
+          {R"({"attributes":{"TRANSLATION":-1}})", "the file has no such accessor"},
+          {R"({"attributes":{"TRANSLATION":3}})", "its type is not allowed"},
+          {R"({"attributes":{"ROTATION":2}})", "its type is not allowed"},
+          {R"({"attributes":{"TRANSLATION":2,"SCALE":0}})", "different lengths"}})
+        EXPECT_NE(refusal(file(extension), "x.glb").find(message), std::string::npos) << extension;
+    EXPECT_NE(refusal(file(R"({"attributes":{"_ID":4}})"), "x.glb", ErrorKind::resources).find("far more"),
+              std::string::npos);
 }
 
 TEST(Gltf, readsBuffersFromDataAndFilesBesideIt) {

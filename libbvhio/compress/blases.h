@@ -36,8 +36,7 @@ class AabbBlases {
 
     /// `leaf` and `entry` are those of a leaf of the top level.
     template <class Entry, class Metrics>
-    BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, const Ray&,
-                                      Metrics& metrics) const {
+    BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, Ray, Metrics& metrics) const {
         metrics.recordFetched(form_.nodeBytes() + leaf.first * sizeof(Root), sizeof(Root));
         return {roots_[leaf.first], entry.enter};
     }

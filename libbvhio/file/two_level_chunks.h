@@ -76,9 +76,10 @@ struct FormChunks<TwoLevelForm> {
         if (counts.areRuns) checkRuns(chunks, tlas, std::get<MvhBlases>(blases), counts);
         TwoLevelForm form(std::move(tlas), std::move(blases),
                           chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references), blasSize);
-        judgeTree(chunks, form.decode(), parameters, scene, [&](uint64_t node) {
-            return node < counts.tlasSlots ? tlasPlace.of(node) : blasPlace.of(node - counts.tlasSlots);
-        });
+        judgeTree(chunks, form.decode(), parameters, scene,
+                  [&, ofTlas = tlasPlace, ofBlas = blasPlace](uint64_t node) {
+                      return node < counts.tlasSlots ? ofTlas.of(node) : ofBlas.of(node - counts.tlasSlots);
+                  });
         return form;
     }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "compress/divide_leaves.h"
 #include "core/error.h"
 
 namespace bvhio {
@@ -87,32 +88,6 @@ int separatingAxis(const Aabb& a, const Aabb& b) {
     return best;
 }
 
-/// The trees with no leaf above the form's size: larger ones are halved, each half within the same box. New
-/// pairs stand behind all others.
-Forest withSmallLeaves(const Forest& given) {
-    bool large = false;
-    for (const auto* list : {&given.roots, &given.nodes})
-        for (const Node& node : *list) large |= node.primitiveCount > SshNode::kMaxLeafSize;
-    if (!large) return given;
-
-    AlignedVector<Node> roots(given.roots.begin(), given.roots.end());
-    AlignedVector<Node> nodes(given.nodes.begin(), given.nodes.end());
-    const auto divided = [&](const Node leaf) {
-        if (leaf.primitiveCount <= SshNode::kMaxLeafSize) return leaf;
-        const auto pair = uint32_t(nodes.size());
-        const uint32_t half = leaf.primitiveCount / 2;
-        nodes.push_back({leaf.bounds, leaf.first, half});
-        nodes.push_back({leaf.bounds, leaf.first + half, leaf.primitiveCount - half});
-        return Node{leaf.bounds, pair, 0};
-    };
-    for (Node& root : roots) root = divided(root);
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        const Node node = divided(nodes[i]);
-        nodes[i] = node;
-    }
-    return {std::move(roots), std::move(nodes)};
-}
-
 void refuseTooMany(size_t references) {
     if (references > SshNode::kMaxReferences)
         throw Error(ErrorKind::unsupported, "the ssh form holds at most " +
@@ -165,7 +140,7 @@ Node decoded(const SshNode& node, Aabb box, Buffer<Node>& nodes) {
 
 SshForm SshForm::encode(const Scene&, const Bvh& bvh, const EncodeOptions&) {
     refuseTooMany(bvh.primitives.size());
-    const SharedArray<Node> given = withSmallLeaves({{}, bvh.nodes}).nodes;
+    const SharedArray<Node> given = divideLeaves(bvh, SshNode::kMaxLeafSize).nodes;
     PairEncoder encoder(given);
     Buffer<SshNode> nodes(given.size());
     nodes[0] = encoder.code(given[0], given[0].bounds);
@@ -176,7 +151,7 @@ SshForm SshForm::encode(const Scene&, const Bvh& bvh, const EncodeOptions&) {
 
 SshForm::Trees SshForm::encodeTrees(const Forest& forest, size_t references) {
     refuseTooMany(references);
-    const Forest given = withSmallLeaves(forest);
+    const Forest given = divideLeaves(forest, SshNode::kMaxLeafSize);
     PairEncoder encoder(given.nodes);
     Buffer<uint32_t> roots(given.roots.size());
     Buffer<SshNode> nodes(given.nodes.size());

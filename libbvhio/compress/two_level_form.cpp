@@ -110,27 +110,30 @@ void refuseTooDeep(const Bvh& bvh) {
 
 TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options) {
     TwoLevels levels = cutTree(bvh, options.blasSize);
-    return makeAlternative<Blases>(size_t(options.blasForm), [&](const auto* type) -> TwoLevelForm {
-        using Bottom = std::decay_t<decltype(*type)>;
-        Runs runs;
-        if constexpr (Bottom::kAreRuns)
-            runs = gatherRuns(scene, levels, bvh.primitives);
-        else
-            levels.top.primitives = std::vector<uint32_t>{0};  // a top level of one leaf owns the one BLAS
-        Tlas tlas = makeAlternative<Tlas>(size_t(options.tlasForm), [&](const auto* top) -> Tlas {
-            return encodeTlas<std::decay_t<decltype(*top)>>(scene, levels.top, options);
+    TwoLevelForm form =
+        makeAlternative<Blases>(size_t(options.blasForm), [&](const auto* type) -> TwoLevelForm {
+            using Bottom = std::decay_t<decltype(*type)>;
+            Runs runs;
+            if constexpr (Bottom::kAreRuns)
+                runs = gatherRuns(scene, levels, bvh.primitives);
+            else
+                levels.top.primitives =
+                    std::vector<uint32_t>{0};  // a top level of one leaf owns the one BLAS
+            Tlas tlas = makeAlternative<Tlas>(size_t(options.tlasForm), [&](const auto* top) -> Tlas {
+                return encodeTlas<std::decay_t<decltype(*top)>>(scene, levels.top, options);
+            });
+            const DecodedTlas top = std::visit([](const auto& level) { return level.decode(); }, tlas);
+            if constexpr (Bottom::kAreRuns) {
+                Bottom blases = Bottom::encode(top, runs.primitives, runs.boxes, runs.ordered);
+                return {std::move(tlas), std::move(blases), std::move(runs.primitives), options.blasSize};
+            } else {
+                const Forest forest = withBoxes(levels.bottom, top.leafBoxes(levels.bottom.roots.size()));
+                Bottom blases = Bottom::encode(forest, bvh.primitives.size());
+                return {std::move(tlas), std::move(blases), bvh.primitives, options.blasSize};
+            }
         });
-        const DecodedTlas top = std::visit([](const auto& level) { return level.decode(); }, tlas);
-        if constexpr (Bottom::kAreRuns) {
-            Bottom blases = Bottom::encode(top, runs.primitives, runs.boxes, runs.ordered);
-            refuseTooDeep(blases.decode(top, {}));
-            return {std::move(tlas), std::move(blases), std::move(runs.primitives), options.blasSize};
-        } else {
-            const Forest forest = withBoxes(levels.bottom, top.leafBoxes(levels.bottom.roots.size()));
-            Bottom blases = Bottom::encode(forest, bvh.primitives.size());
-            return {std::move(tlas), std::move(blases), bvh.primitives, options.blasSize};
-        }
-    });
+    refuseTooDeep(form.decode());  // BLASes may be deeper than what they stand for
+    return form;
 }
 
 Bvh TwoLevelForm::decode() const {

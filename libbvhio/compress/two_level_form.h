@@ -26,7 +26,8 @@ class TwoLevelForm {
     using Tlas = std::variant<QuantizedTlas, AabbTlas>;
     using Blases = std::variant<MvhBlases, SshBlases, AabbBlases>;
 
-    /// Leaves of `tlas` have one entry each: the index of a BLAS. As in format-spec/two-level.md.
+    /// Leaves of `tlas` own the index of a BLAS each, or, where BLASes are runs, the run of primitives that
+    /// is one. As in format-spec/two-level.md.
     TwoLevelForm(Tlas tlas, Blases blases, SharedArray<uint32_t> primitives, uint32_t blasSize)
         : tlas_(std::move(tlas)),
           blases_(std::move(blases)),

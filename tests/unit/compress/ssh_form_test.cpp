@@ -6,6 +6,7 @@
 
 #include "build/builders.h"
 #include "common/test_scenes.h"
+#include "compress/two_level_form.h"
 #include "core/error.h"
 #include "core/sah_cost.h"
 
@@ -63,6 +64,30 @@ TEST(SshForm, dividesLeavesThatAreTooLarge) {
     }
     EXPECT_EQ(largest, SshNode::kMaxLeafSize);
     EXPECT_EQ(total, 500u);
+}
+
+// A chain as deep as a tree may be, whose last leaf has `last` triangles.
+Bvh deepChain(uint32_t last) {
+    const Aabb box{{0, 0, 0}, {1, 1, 1}};
+    AlignedVector<Node> nodes{{box, 2, 0}, {}};
+    for (uint32_t depth = 1; depth <= kMaxDepth; ++depth) {
+        nodes.push_back({box, depth - 1, 1});
+        nodes.push_back({box, uint32_t(nodes.size()) + 1, 0});
+    }
+    nodes.back() = {box, kMaxDepth, last};
+    return {std::move(nodes), std::vector<uint32_t>(kMaxDepth + last)};
+}
+
+// Halves of a leaf at the greatest depth would lie below it, where no traversal has room for them.
+TEST(SshForm, refusesLargeLeavesThatLieTooDeepToBeDivided) {
+    EXPECT_THROW(SshForm::encode({}, deepChain(SshNode::kMaxLeafSize + 1), {}), Error);
+    const Bvh fits = deepChain(SshNode::kMaxLeafSize);
+    EXPECT_EQ(SshForm::encode({}, fits, {}).decode().nodes.size(), fits.nodes.size());
+    EncodeOptions options;
+    options.tlasForm = TlasForm::aabb;
+    options.blasForm = BlasForm::ssh;
+    EXPECT_THROW(TwoLevelForm::encode({}, deepChain(SshNode::kMaxLeafSize + 1), options), Error);
+    EXPECT_EQ(TwoLevelForm::encode({}, fits, options).decode().nodes.size(), fits.nodes.size());
 }
 
 TEST(SshForm, refusesMoreReferencesThanItsWordsCanName) {

@@ -18,6 +18,8 @@ import subprocess
 import sys
 import tempfile
 
+from page import write_after_marker
+
 MARKER = "<!-- compare_forms.py writes what follows -->"
 TREES = [  # key, heading, options of bvh-build
     ("single", "One triangle a leaf", ["--max-leaf-size", 1]),
@@ -140,17 +142,6 @@ def mvh_beside_paper(name, triangles, rows):
     return lines
 
 
-def write_table(path, text):
-    """Replaces what follows the marker in a page that has it, and else the whole file."""
-    head = ""
-    if os.path.exists(path):
-        with open(path) as file:
-            before, marker, _ = file.read().partition(MARKER)
-            head = before + marker + "\n\n" if marker else ""
-    with open(path, "w") as file:
-        file.write(head + text)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="+", metavar="NAME=SCENE")
@@ -204,7 +195,7 @@ def main():
             parts.append(f"## {name}: {title[0].lower() + title[1:]}\n\n" + details(rows[key]))
     text = "\n".join(parts)
     if options.table:
-        write_table(options.table, text)
+        write_after_marker(options.table, MARKER, text)
     else:
         print(text, end="")
 

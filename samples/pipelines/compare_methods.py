@@ -17,6 +17,8 @@ import subprocess
 import sys
 import tempfile
 
+from page import write_after_marker
+
 COLUMNS = [  # key, heading, format
     ("chain", "builder + method", "{}"),
     ("seconds", "seconds", "{:.3f}"),
@@ -109,17 +111,6 @@ def table(title, rows):
     return "\n".join(lines) + "\n"
 
 
-def write_table(path, text):
-    """Replaces what follows the marker in a page that has it, and else the whole file."""
-    head = ""
-    if os.path.exists(path):
-        with open(path) as file:
-            before, marker, _ = file.read().partition(MARKER)
-            head = before + marker + "\n\n" if marker else ""
-    with open(path, "w") as file:
-        file.write(head + text)
-
-
 def plot(scenes, path):
     """Cost against time for each scene, the builders in colours and the methods as marks; the nearer to the lower left corner
     the better."""
@@ -186,7 +177,7 @@ def main():
             scenes.append((os.path.splitext(os.path.basename(scene))[0], rows))
     text = "\n".join(table(title, rows) for title, rows in scenes)
     if options.table:
-        write_table(options.table, text)
+        write_after_marker(options.table, MARKER, text)
     else:
         print(text, end="")
     if options.plot:

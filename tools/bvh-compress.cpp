@@ -1,9 +1,9 @@
 // bvh-compress: chooses how a container's tree is stored, and squeezes its chunks.
 #include <algorithm>
 
+#include "common/form_options.h"
 #include "common/form_search.h"
 #include "common/log.h"
-#include "common/mvh_options.h"
 #include "common/pass.h"
 #include "common/run_tool.h"
 #include "compress/exact_boxes.h"
@@ -52,76 +52,6 @@ std::vector<NamedValue> codecNames() {
     names.push_back({"topology", "zstd, and for form aabb nodes without boxes: fitted again when read"});
     return names;
 }
-
-/// The option of the quantized form: 0 where not given.
-class QuantizedOptions {
-  public:
-    explicit QuantizedOptions(CommandLine& line) {
-        line.number("--bits", bits_, QuantizedRecord::kMinBits, QuantizedRecord::kMaxBits,
-                    "quantized: bits a plane");
-    }
-
-    /// Adds what was given to the options for `form`, and fills in the rest. For after TwoLevelOptions.
-    void addTo(EncodeOptions& options, std::string_view form) {
-        const bool isTop = form == TwoLevelForm::kName && options.tlasForm == TlasForm::quantized;
-        if (form == QuantizedForm::kName || isTop) {
-            if (bits_ == 0) bits_ = options.bits;
-            options.bits = bits_;
-        } else if (bits_ != 0) {
-            throw Error(ErrorKind::usage,
-                        "--bits: is for --form quantized, not " + std::string(form) + ": leave it out");
-        }
-    }
-
-  private:
-    uint32_t bits_ = 0;
-};
-
-/// Options of the two-level form: empty or 0 where not given.
-class TwoLevelOptions {
-  public:
-    explicit TwoLevelOptions(CommandLine& line) {
-        line.choice("--tlas-form", tlasForm_, namesOf<TlasForm>(), "two-level: how the top level is stored");
-        line.choice("--blas-form", blasForm_, namesOf<BlasForm>(), "two-level: how BLASes are stored");
-        line.number("--blas-size", blasSize_, 1, kMaxLeafSize,
-                    "two-level: most references in a BLAS, where leaves allow it");
-    }
-
-    /// Adds what was given to the options for `form`, and fills in the rest.
-    void addTo(EncodeOptions& options, std::string_view form) {
-        if (form != TwoLevelForm::kName) {
-            for (const auto& [name, given] : {std::pair{"--tlas-form", !tlasForm_.empty()},
-                                              {"--blas-form", !blasForm_.empty()},
-                                              {"--blas-size", blasSize_ != 0}})
-                if (given)
-                    throw Error(ErrorKind::usage, std::string(name) + ": is for --form two-level, not " +
-                                                      std::string(form) + ": leave it out");
-            return;
-        }
-        take(tlasForm_, options.tlasForm);
-        take(blasForm_, options.blasForm);
-        if (blasSize_ == 0) blasSize_ = options.blasSize;
-        options.blasSize = blasSize_;
-    }
-
-  private:
-    template <class LevelForm>
-    static std::vector<NamedValue> namesOf() {
-        std::vector<NamedValue> names;
-        for (size_t i = 0; i < levelForms<LevelForm>().size(); ++i)
-            names.push_back({levelForms<LevelForm>()[i], i == 0 ? "the default" : ""});
-        return names;
-    }
-    template <class LevelForm>
-    static void take(std::string& name, LevelForm& form) {
-        const auto names = levelForms<LevelForm>();
-        if (name.empty()) name = names[size_t(form)];
-        form = LevelForm(std::find(names.begin(), names.end(), name) - names.begin());
-    }
-
-    std::string tlasForm_, blasForm_;
-    uint32_t blasSize_ = 0;
-};
 
 const std::vector<NamedValue> kTriangleOrders = {
     {"source", "as they are"},

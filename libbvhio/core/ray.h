@@ -22,9 +22,10 @@ static_assert(sizeof(Ray) == 32);
 
 inline constexpr uint32_t kNoPrimitive = 0xFFFFFFFFu;
 
-/// The answer to a closest-hit query. `primitive` is the index of the triangle in `Scene::triangles`; among
-/// equal t the lowest index wins. u and v are the barycentric weights of the second and third vertex. A miss
-/// has primitive == kNoPrimitive, t = the infinity, u = v = 0.
+/// The answer to a closest-hit query. `primitive` is the index of the triangle in `Scene::triangles`, or,
+/// in an instanced scene, as Scene numbers it through all instances; among equal t the lowest wins. u and v
+/// are the barycentric weights of the second and third vertex. A miss has primitive == kNoPrimitive, t = the
+/// infinity, u = v = 0.
 struct Hit {
     float t = std::numeric_limits<float>::infinity();
     float u = 0, v = 0;

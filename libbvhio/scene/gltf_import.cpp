@@ -218,9 +218,10 @@ class SceneReader {
             throw Error(ErrorKind::resources, document_.name + ": the scene has more than " +
                                                   std::to_string(maxInstances_) + " instances");
         for (const Transform& place : places)
-            for (const Part& part : parts) {
+            for (size_t i = 0; i < parts.size(); ++i) {
+                const Part& part = parts[i];
                 const bool ownName = part.name != scene_.meshes[part.mesh].name;
-                scene_.instances.push_back({part.mesh, place, ownName ? part.name : ""});
+                scene_.instances.push_back({part.mesh, place, ownName ? part.name : "", i > 0});
             }
     }
 

@@ -32,11 +32,13 @@ using Transform = std::array<double, 12>;
 inline constexpr Transform kIdentityTransform{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
 /// A mesh placed in the world. `name` is for a mesh that its file has under several names; when empty, the
-/// mesh's own counts.
+/// mesh's own counts. `joinsPrevious` tells that this and the instance before are parts of one thing, and
+/// stand in one place: the primitives of a glTF mesh.
 struct Instance {
     uint32_t mesh = 0;
     Transform transform = kIdentityTransform;
     std::string name = {};
+    bool joinsPrevious = false;
 };
 
 /// A scene as its file has it: shared meshes and where they stand, in scene order (glTF: depth first through
@@ -64,5 +66,14 @@ ImportedScene importBytes(std::span<const std::byte> bytes, const std::string& n
 /// a vertex that is used and not finite (mesh and vertex named), no triangles, and as ImportOptions asks;
 /// unsupported for 2^31 triangles or more.
 Scene flatten(ImportedScene imported, const ImportOptions& options);
+
+/// The same as an instanced scene: each mesh once, in its own space, and its instances, with transforms
+/// rounded to float. Meshes are what stands together (Instance::joinsPrevious), found once where several have
+/// the same parts; names are those of the first. Where a transform flattens its mesh, is so skewed that
+/// rays would lose precision, or leaves the floats, that instance gets a mesh of its own with its triangles
+/// in their place, and the identity. What has no triangles is left out, but counts in the numbers of
+/// geometries, which are those that flatten gives. `onDegenerate` looks at triangles in their meshes' spaces.
+/// Throws as flatten does, and unsupported when all instances together have 2^31 triangles or more.
+Scene shareMeshes(ImportedScene imported, const ImportOptions& options);
 
 }  // namespace bvhio

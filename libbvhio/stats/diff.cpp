@@ -32,6 +32,14 @@ std::string text(const TriangleIndices& t) {
 std::string text(uint32_t number) {
     return std::to_string(number);
 }
+std::string text(const SceneMesh& mesh) {
+    return format("%u geometries from %u", mesh.geometryCount, mesh.firstGeometry);
+}
+std::string text(const SceneInstance& instance) {
+    std::string result = format("mesh %u by", instance.mesh);
+    for (const float number : instance.objectToWorld) result += format(" %.9g", double(number));
+    return result;
+}
 std::string text(const Geometry& g) {
     std::string result = "'";
     return result.append(g.name).append(
@@ -70,6 +78,8 @@ std::optional<Difference> geometryDifference(const Scene& a, const Scene& b) {
     diff.compare("triangle", "triangles", a.triangles, b.triangles);
     diff.compare("geometry", "geometries", a.geometries, b.geometries);
     diff.compare("source number of triangle", "source numbers", a.sourcePrimitives, b.sourcePrimitives);
+    diff.compare("mesh", "meshes", a.meshes, b.meshes);
+    diff.compare("instance", "instances", a.instances, b.instances);
     return diff.result(Aspect::geometry);
 }
 

@@ -63,6 +63,10 @@ uint64_t geometryHash(const Scene& scene) {
         add(geometry.name);
     }
     add(scene.sourcePrimitives);
+    if (scene.isInstanced()) {
+        for (const SceneMesh& mesh : scene.meshes) add(std::array{mesh.geometryCount});
+        add(scene.instances);
+    }
     return hasher.value();
 }
 

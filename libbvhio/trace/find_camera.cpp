@@ -18,14 +18,17 @@ Camera frameObject(const Scene& scene, const Aabb& box, double aspect, Vec3d toV
     const Vec3d up = cross(right, forward);
     const double tall = halfTangent(camera.fov) * 0.94, wide = tall * aspect;  // 6% stay free around it
     double r = -1e300, l = -1e300, t = -1e300, b = -1e300, nearest = 1e300;
-    for (const TriangleIndices& triangle : scene.triangles)
-        for (const uint32_t v : {triangle.v0, triangle.v1, triangle.v2}) {
-            const Vec3d p = Vec3d(scene.vertices[v]) - center;
-            const double x = dot(p, right), y = dot(p, up), z = dot(p, forward);
-            r = std::max(r, x - wide * z), l = std::max(l, -x - wide * z);
-            t = std::max(t, y - tall * z), b = std::max(b, -y - tall * z);
-            nearest = std::min(nearest, z);
-        }
+    const auto fit = [&](Vec3 vertex) {
+        const Vec3d p = Vec3d(vertex) - center;
+        const double x = dot(p, right), y = dot(p, up), z = dot(p, forward);
+        r = std::max(r, x - wide * z), l = std::max(l, -x - wide * z);
+        t = std::max(t, y - tall * z), b = std::max(b, -y - tall * z);
+        nearest = std::min(nearest, z);
+    };
+    for (const SceneInstance& instance : scene.instances) forEachPlacedVertex(scene, instance, fit);
+    if (!scene.isInstanced())
+        for (const TriangleIndices& triangle : scene.triangles)
+            for (const uint32_t v : {triangle.v0, triangle.v1, triangle.v2}) fit(scene.vertices[v]);
     double size = length(Vec3d(box.max) - Vec3d(box.min));
     if (size == 0) size = std::max(1e-3 * length(center), 1e-30);  // all triangles in one point
     const double back = std::max({(r + l) / (2 * wide), (t + b) / (2 * tall), 0.05 * size - nearest});
@@ -47,7 +50,7 @@ bool isInRoom(const Scene& scene, std::span<const Ray> rays, std::span<const Hit
         if (hits[i].isMiss()) continue;
         ++met;
         sum += hits[i].t;
-        fronts += dot(triangleNormal(scene.triangle(hits[i].primitive)), Vec3d(rays[i].direction)) < 0;
+        fronts += dot(triangleNormal(scene.placedTriangle(hits[i].primitive)), Vec3d(rays[i].direction)) < 0;
     }
     return 10 * met >= 7 * hits.size() && 10 * fronts >= 8 * met && sum > 0.1 * diagonal * double(met);
 }
@@ -106,7 +109,7 @@ double viewScore(const Scene& scene, std::span<const Ray> rays, std::span<const 
         depth += t;
         blocked += t < kNear;
         if (hits[i].isMiss()) continue;
-        normals[i] = triangleNormal(scene.triangle(hits[i].primitive));
+        normals[i] = triangleNormal(scene.placedTriangle(hits[i].primitive));
         backs += dot(normals[i], Vec3d(rays[i].direction)) >= 0;
     }
     const auto differ = [&](size_t a, size_t b) {

@@ -17,7 +17,7 @@ std::vector<HitRecord> hitRecords(const Scene& scene, std::span<const Hit> hits)
             const Hit& hit = hits[i];
             if (hit.isMiss()) continue;
             const Scene::PrimitiveId id = scene.primitiveId(hit.primitive);
-            records[i] = {hit.t, hit.u, hit.v, id.primitive, id.geometry, 0};
+            records[i] = {hit.t, hit.u, hit.v, id.primitive, id.geometry, id.instance};
         }
     });
     return records;

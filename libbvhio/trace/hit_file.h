@@ -13,8 +13,8 @@
 namespace bvhio {
 
 /// A hit in a scene's own ids, which no builder, form or layout changes: 24 bytes, stored as is. `primitive`
-/// is the triangle within its `geometry`, both in source order; `instance` is 0 in a flattened scene. A miss
-/// has all three ids 0xFFFFFFFF, t infinite and u = v = 0.
+/// is the triangle within its `geometry`, both in source order; `instance` counts those of an instanced
+/// scene, and is 0 in a plain one. A miss has all three ids 0xFFFFFFFF, t infinite and u = v = 0.
 struct HitRecord {
     float t = std::numeric_limits<float>::infinity();
     float u = 0, v = 0;

@@ -29,6 +29,27 @@ class ClosestHit {
     float boxLimit_;
 };
 
+/// A query as seen from within an instance whose box the ray enters at `enter`: takes those hits that the
+/// definition in scene/instance.h allows, triangles' indices turned into the instance's primitives.
+template <class Query>
+class InstanceQuery {
+  public:
+    InstanceQuery(Query& query, float enter, uint32_t primitiveOffset)
+        : query_(query), enter_(enter), primitiveOffset_(primitiveOffset) {}
+
+    BVHIO_INLINE float tLimit() const { return query_.tLimit(); }
+    BVHIO_INLINE float boxLimit() const { return query_.boxLimit(); }
+    BVHIO_INLINE bool offer(Hit hit) {
+        hit.primitive += primitiveOffset_;
+        return enter_ <= widen(hit.t) && query_.offer(hit);
+    }
+
+  private:
+    Query& query_;
+    float enter_;
+    uint32_t primitiveOffset_;
+};
+
 /// Whether there is any hit.
 class AnyHit {
   public:

@@ -16,9 +16,9 @@ constexpr size_t kGrain = 4096;
 
 /// A quiet colour for each geometry, by stepping round the hues in the golden ratio; clay where there is only
 /// one.
-Vec3d colorOf(const Scene& scene, uint32_t triangle) {
-    if (scene.geometries.size() == 1) return {0.60, 0.52, 0.44};
-    const double turns = scene.primitiveId(triangle).geometry * 0.6180339887498949;
+Vec3d colorOf(const Scene& scene, uint32_t primitive) {
+    if (scene.placedGeometryCount() == 1) return {0.60, 0.52, 0.44};
+    const double turns = scene.primitiveId(primitive).geometry * 0.6180339887498949;
     const double hue = 6 * (turns - double(int64_t(turns)));
     const auto channel = [&](double at) {
         double distance = std::fabs(hue - at);

@@ -24,7 +24,18 @@ inline Vec3d triangleNormal(const Triangle& t) {
 /// starting there may err.
 SurfacePoint surfacePoint(const Scene& scene, const Ray& ray, const Hit& hit);
 
-/// The box of all triangles.
+/// Calls function(v) with the vertices of the instance's triangles where they stand in the world.
+template <class Function>
+void forEachPlacedVertex(const Scene& scene, const SceneInstance& instance, const Function& function) {
+    const SceneMesh& mesh = scene.meshes[instance.mesh];
+    for (uint32_t i = 0; i < mesh.triangleCount; ++i) {
+        const TriangleIndices& t = scene.triangles[mesh.firstTriangle + i];
+        for (const uint32_t v : {t.v0, t.v1, t.v2})
+            function(place(instance.objectToWorld, scene.vertices[v]));
+    }
+}
+
+/// The box in the world of all triangles.
 Aabb triangleBounds(const Scene& scene);
 
 }  // namespace bvhio

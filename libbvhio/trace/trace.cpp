@@ -67,16 +67,30 @@ TraceMeasurement measureForm(const Form& form, const Scene& scene, std::span<con
     return {sums, allLocality.counts()};
 }
 
+/// Tests the triangles of a range; true when the query is done.
+template <class Query>
+bool testEach(const Scene& scene, const PreparedRay& ray, PrimitiveRange range, Query& query) {
+    for (uint32_t i = range.first; i < range.first + range.count; ++i) {
+        Hit hit;
+        hit.primitive = i;
+        if (hitTriangle(ray, scene.triangle(i), query.tLimit(), hit) && query.offer(hit)) return true;
+    }
+    return false;
+}
+
 template <class Query>
 auto bruteForce(const Scene& scene, const Ray& given) {
     const PreparedRay ray(given);
     Query query(ray);
-    if (!ray.missesByDefinition()) {
-        for (uint32_t i = 0; i < scene.triangles.size(); ++i) {
-            Hit hit;
-            hit.primitive = i;
-            if (hitTriangle(ray, scene.triangle(i), query.tLimit(), hit) && query.offer(hit)) break;
-        }
+    if (ray.missesByDefinition()) return query.result();
+    if (!scene.isInstanced()) testEach(scene, ray, {0, uint32_t(scene.triangles.size())}, query);
+    for (const InstanceEntry& instance : instanceEntries(scene)) {
+        const RayInterval part = clipToBox(ray, instance.bounds, query.boxLimit());
+        const PreparedRay local(objectRay(instance.toObject, ray));
+        if (part.isEmpty() || local.missesByDefinition()) continue;
+        InstanceQuery<Query> within(query, part.enter, instance.primitiveOffset);
+        const SceneMesh& mesh = scene.meshes[instance.mesh];
+        if (testEach(scene, local, {mesh.firstTriangle, mesh.triangleCount}, within)) break;
     }
     return query.result();
 }

@@ -23,6 +23,13 @@ run() { # TOOLS THREADS OUTPUT
         [ -e "$scene" ] || continue
         name=$output/$(basename "$scene")
         for builder in "${builders[@]}"; do
+            "$tools/bvh-build" "$scene" --two-level --builder "$builder" -j "$threads" -o "$name.levels.$builder.bvhx"
+        done
+        "$tools/bvh-restructure" "$name.levels.${builders[0]}.bvhx" -j "$threads" -o "$name.levels.restructured.bvhx"
+        "$tools/bvh-compress" "$name.levels.restructured.bvhx" --form two-level -j "$threads" -o "$name.levels.compact.bvhx"
+        "$tools/bvh-trace" "$name.levels.compact.bvhx" --rays diffuse --count 20000 -j "$threads" --hits "$name.levels.hits" >/dev/null
+        [ "$(basename "$scene")" != orchard.glb ] || continue # is about instances
+        for builder in "${builders[@]}"; do
             "$tools/bvh-build" "$scene" --builder "$builder" -j "$threads" -o "$name.$builder.bvhx"
             for method in "${methods[@]}"; do
                 "$tools/bvh-restructure" "$name.$builder.bvhx" --method "$method" -j "$threads" -o "$name.$builder.$method.bvhx"

@@ -1,5 +1,6 @@
 // bvh-build: from a scene to a container; or from a container's tree to the same tree over a moved scene.
 #include "build/builders.h"
+#include "build/instanced.h"
 #include "build/spatial.h"
 #include "common/input.h"
 #include "common/log.h"
@@ -18,6 +19,7 @@ const ToolInfo kTool = {
     "Builds a BVH over the triangles of a scene: glTF, GLB, OBJ, PLY, STL or Draco.",
     "  bvh-build scene.glb -o scene.bvhx\n"
     "  bvh-build scene.ply --builder median | bvh-stats\n"
+    "  bvh-build scene.glb --two-level -o instanced.bvhx\n"
     "  bvh-build moved.glb --refit scene.bvhx -o moved.bvhx\n",
 };
 
@@ -35,12 +37,11 @@ Error withName(const std::string& input, const Error& error) {
     return {error.kind(), (input == "-" ? "standard input" : input) + ": " + error.what()};
 }
 
-Scene import(const std::string& input, const ImportOptions& options) {
+Scene import(const std::string& input, const ImportOptions& options, bool shares = false) {
     const std::string name = input == "-" ? "standard input" : input;
-    const ImportedScene imported =
-        input == "-" ? importBytes(readWholeFile(input), name, ".") : importFile(input);
+    ImportedScene imported = input == "-" ? importBytes(readWholeFile(input), name, ".") : importFile(input);
     try {
-        return flatten(imported, options);
+        return shares ? shareMeshes(std::move(imported), options) : flatten(std::move(imported), options);
     } catch (const Error& error) {
         throw withName(input, error);  // meshes don't know their file
     }
@@ -49,6 +50,8 @@ Scene import(const std::string& input, const ImportOptions& options) {
 /// The tree of the container `old`, in its form, fitted to the scene, which must be the same mesh.
 void refit(Pass& pass, const std::string& old) {
     BvhxFile file = pass.read(old);
+    if (isInstanced(file.bvh))
+        throw Error(ErrorKind::usage, "--refit: " + old + " has instances: build anew with --two-level");
     pass.stages().begin("import");
     const Scene scene = import(pass.input(), {});
     pass.stages().begin("refit");
@@ -83,6 +86,9 @@ ExitCode build(CommandLine& line) {
     line.number("--intersection-cost", options.costs.intersection, 0, 1e6f,
                 "SAH cost of a ray-triangle test");
     line.choice("--on-degenerate", degenerate, kOnDegenerate, "what to do with triangles of zero area");
+    bool twoLevel = false;
+    line.flag("--two-level", twoLevel,
+              "a tree for each mesh, in its own space, and one over their instances");
     line.beginPlumbing();
     std::string old;
     line.text("--refit", "OLD.bvhx", old, "build nothing: fit this file's tree to SCENE, its mesh moved");
@@ -100,12 +106,20 @@ ExitCode build(CommandLine& line) {
     }
 
     pass.stages().begin("import");
-    Scene scene = import(pass.input(), {onDegenerate(degenerate)});
+    Scene scene = import(pass.input(), {onDegenerate(degenerate)}, twoLevel);
     pass.stages().begin("build");
     options.progress = &pass.stages().progress();
-    Bvh bvh = choose(builders(), "builder", builder).function(scene, options);
-    BvhxFile file{std::move(scene), AabbForm(std::move(bvh)), options.costs, {}, {}};
-    pass.finish(file, {}, "build", {{"primitives", file.scene.triangles.size()}});
+    const Builder& chosen = choose(builders(), "builder", builder);
+    EncodedBvh bvh = twoLevel ? EncodedBvh(TwoLevelForm::encodeInstances(
+                                    scene, buildInstanced(scene, chosen, options), exactLevels()))
+                              : EncodedBvh(AabbForm(chosen.function(scene, options)));
+    BvhxFile file{std::move(scene), std::move(bvh), options.costs, {}, {}};
+    Report counts = {{"primitives", file.scene.triangles.size()}};
+    if (twoLevel)
+        counts.update({{"meshes", file.scene.meshes.size()},
+                       {"instances", file.scene.instances.size()},
+                       {"instanced_primitives", file.scene.primitiveCount()}});
+    pass.finish(file, {}, "build", counts);
     return ExitCode::done;
 }
 

@@ -75,6 +75,21 @@ void orderTrianglesByLeaves(BvhxFile& file) {
     file.unknownChunks.clear();  // they may know triangles by their old indices
 }
 
+/// Stores both levels of an instanced scene's trees in other forms.
+void encodeInstances(BvhxFile& file, std::string_view form, const EncodeOptions& options, bool cuts) {
+    if (form != TwoLevelForm::kName)
+        throw Error(ErrorKind::usage,
+                    "--form " + std::string(form) +
+                        ": the scene has instances: use two-level, or build without --two-level");
+    if (cuts)
+        throw Error(ErrorKind::usage,
+                    "--blas-size: the scene has instances, whose meshes are BLASes whole: leave it out");
+    if (optionsOf(file.bvh) == options) return;
+    const InstancedBvh trees = std::get<TwoLevelForm>(file.bvh).decodeInstances(file.scene);
+    file.bvh = TwoLevelForm::encodeInstances(file.scene, trees, options);
+    dropChunksThatDoNotSurvive(file, Change::reordered);
+}
+
 ExitCode compress(CommandLine& line) {
     std::string form(forms()[0].name), codec = "zstd", geometry(kGeometries[0].name),
                                        triangleOrder(kTriangleOrders[0].name),
@@ -129,7 +144,10 @@ ExitCode compress(CommandLine& line) {
     }
     pass.recordOptions(search.recordedOptions(line));
     pass.stages().begin("compress");
-    if (formNameOf(file.bvh) != form || optionsOf(file.bvh) != encoding) {
+    if (file.scene.isInstanced()) {
+        twoLevel.chooseForInstances(encoding);
+        encodeInstances(file, form, encoding, twoLevel.cuts());
+    } else if (formNameOf(file.bvh) != form || optionsOf(file.bvh) != encoding) {
         if (form == MvhForm::kName) logInfo("mvh builds a tree of its own from the triangles");
         file.bvh = choose(forms(), "form", form).function(file.scene, treeFor(form, file), encoding);
         dropChunksThatDoNotSurvive(file, Change::reordered);

@@ -20,8 +20,8 @@ ExitCode relayout(CommandLine& line) {
 
     BvhxFile file = pass.read();
     pass.stages().begin("relayout");
-    const Bvh bvh = decode(file.bvh);
-    file.bvh = AabbForm(applyNodeOrder(bvh, choose(layouts(), "layout", layout).function(bvh)));
+    const auto order = choose(layouts(), "layout", layout).function;
+    changeTrees(file, [&](const Scene&, const Bvh& bvh, bool) { return applyNodeOrder(bvh, order(bvh)); });
     dropChunksThatDoNotSurvive(file, Change::reordered);
     pass.finish(file, {}, "relayout");
     return ExitCode::done;

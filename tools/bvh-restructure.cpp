@@ -45,19 +45,26 @@ ExitCode restructure(CommandLine& line) {
     options.recordCosts = pass.reports();
     options.progress = &pass.stages().progress();
     const auto& chosen = choose(restructurers(), "method", method);
-    // Costs are judged by the boxes that the tree is about, not by those that a compact form made of them.
-    Bvh bvh = decode(file.bvh);
-    if (!std::holds_alternative<AabbForm>(file.bvh)) bvh = withExactBoxes(file.scene, bvh);
-    const double start = pass.stages().elapsed();
-    Restructured result = chosen.function(file.scene, bvh, options);
-    const double seconds = pass.stages().elapsed() - start - result.recordingSeconds;
-    file.bvh = AabbForm(std::move(result.bvh));
+    const bool isExact = std::holds_alternative<AabbForm>(file.bvh);
+    Report iterations = Report::array();
+    double seconds = 0, bytesPerNode = 0;
+    changeTrees(file, [&](const Scene& scene, const Bvh& given, bool isTop) {
+        // Costs are judged by the boxes that the tree is about, not by those that a compact form made of
+        // them.
+        const Bvh bvh = isExact ? given : withExactBoxes(scene, given);
+        RestructureOptions own = options;
+        if (isTop) own.collapse = false;  // an instance has a leaf of its own
+        const double start = pass.stages().elapsed();
+        Restructured result = chosen.function(scene, bvh, own);
+        seconds += pass.stages().elapsed() - start - result.recordingSeconds;
+        bytesPerNode = std::max(bytesPerNode, result.bytesPerNode);
+        if (!file.scene.isInstanced()) iterations = iterationsOf(result);
+        return std::move(result.bvh);
+    });
     dropChunksThatDoNotSurvive(file, Change::topologyChanged);
     dropChunksThatDoNotSurvive(file, Change::reordered);
     pass.finish(file, {}, "restructure",
-                {{"seconds", seconds},
-                 {"iterations", iterationsOf(result)},
-                 {"bytes_per_node", result.bytesPerNode}});
+                {{"seconds", seconds}, {"iterations", iterations}, {"bytes_per_node", bytesPerNode}});
     return ExitCode::done;
 }
 

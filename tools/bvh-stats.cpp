@@ -98,7 +98,8 @@ Report storedBytes(const ChunkList& list, uint64_t fileSize) {
         if (type == kPrimitivesType)
             primitives += chunk.header.storedSize;
         else if (type == kVerticesType || type == kTrianglesType || type == kDracoType ||
-                 type == kGeometriesType || type == kSourcePrimitivesType || type == kSceneType)
+                 type == kGeometriesType || type == kSourcePrimitivesType || type == kSceneType ||
+                 type == kMeshesType || type == kInstancesType)
             geometry += chunk.header.storedSize;
         else if (findChunkKind(type) && type != kProvenanceType && type != kEndType)
             nodes += chunk.header.storedSize;  // the chunks of whichever form
@@ -155,6 +156,10 @@ ExitCode stats(CommandLine& line) {
         if (levels) addTo(asked, slackStats(file.scene, decode(file.bvh), file.costs));
         if (!other.empty()) {
             const BvhxFile second = query.readOther("--diff", other);
+            if (isInstanced(file.bvh) || isInstanced(second.bvh))
+                throw Error(
+                    ErrorKind::usage,
+                    "--diff: compares single trees, and a scene has instances: use bvh-trace --compare");
             asked["diff"] =
                 diffReport({file.scene, file.bvh, file.costs}, {second.scene, second.bvh, second.costs});
             different = !asked["diff"]["differences"].empty();
@@ -162,7 +167,8 @@ ExitCode stats(CommandLine& line) {
         query.stages().begin("measure");
         if (query.isJson() || summaryAlone) {
             Report report = summary(file, input, !noEpo);
-            if (!query.isJson()) report["slack"].erase("levels");  // --levels prints them
+            if (!query.isJson() && report.contains("slack"))
+                report["slack"].erase("levels");  // --levels prints them
             report.update(asked);
             asked = std::move(report);
         }

@@ -25,7 +25,7 @@ UNSUPPORTED = {1003, 1004, 1014, 2001, 2008, 2010}
 CRITICAL = 1
 
 # Known types in file order: flags.
-KNOWN = {"SCEN": 7, "VERT": 7, "TRIS": 7, "DRCO": 7, "GEOM": 7, "SRCP": 7, "TREE": 1, "FORM": 1, "NODE": 1, "TLAS": 1, "ROOT": 1, "BLAS": 1, "PRIM": 1,
+KNOWN = {"SCEN": 7, "VERT": 7, "TRIS": 7, "DRCO": 7, "GEOM": 7, "SRCP": 7, "MESH": 7, "INST": 7, "TREE": 1, "ENTR": 1, "FORM": 1, "NODE": 1, "TLAS": 1, "ROOT": 1, "BLAS": 1, "PRIM": 1,
          "TOPO": 1, "PROV": 6}
 
 
@@ -179,10 +179,13 @@ def check_text(data):
 
 def read_scene(chunks):
     raw = chunks.expect("SCEN", 64)
-    vertices, triangles, geometries, name_bytes, encoding, flags = struct.unpack_from("<4Q2I", raw)
-    reject_if(any(raw[40:]) or flags > 1, 2006, "SCEN: reserved")
+    vertices, triangles, geometries, name_bytes, encoding, flags, meshes, instances = struct.unpack_from("<4Q4I", raw)
+    reject_if(any(raw[48:]) or flags > 3 or (flags < 2 and meshes + instances > 0), 2006, "SCEN: reserved")
     reject_if(not (1 <= vertices < 2**32 and 1 <= triangles < 2**31 and 1 <= geometries < 2**32 and name_bytes < 2**32), 2007,
               "SCEN: counts")
+    if flags & 2:
+        reject_if(not (1 <= meshes <= geometries and 1 <= instances < 2**31), 2007, "SCEN: counts of instances")
+        reject_if(encoding == 1, 2020, "instances with Draco")
     reject_if(encoding > 1, 2008, "geometry encoding")
     points, corners = None, None
     if encoding == 0:
@@ -206,7 +209,71 @@ def read_scene(chunks):
     boxes = None
     if points is not None:
         boxes = [[f(points[i][axis] for i in t) for f in (min, max) for axis in range(3)] for t in corners]
-    return {"vertices": vertices, "triangles": triangles, "geometries": len(names), "boxes": boxes}
+    scene = {"vertices": vertices, "triangles": triangles, "geometries": len(names), "boxes": boxes}
+    if flags & 2:
+        read_instances(chunks, scene, [count for count, _ in table], meshes, instances)
+    return scene
+
+
+def read_instances(chunks, scene, counts, meshes, instances):
+    """Adds "runs", a pair of first triangle and count for each mesh, and "placed", a pair of mesh and box in the world for each instance."""
+    geometry, triangle, runs = 0, 0, []
+    sizes = [size for size, in struct.iter_unpack("<I", chunks.expect("MESH", 4 * meshes))]
+    for size in sizes:
+        count = sum(counts[geometry:geometry + size])
+        reject_if(geometry + size > len(counts) or count == 0, 2017, "a mesh")
+        runs.append((triangle, count))
+        geometry, triangle = geometry + size, triangle + count
+    reject_if(geometry != len(counts), 2017, "meshes")
+    mesh_boxes = [around(scene["boxes"][first:first + count]) for first, count in runs]
+    placed, next_geometry, primitives = [], 0, 0
+    for record in struct.iter_unpack("<12f4I", chunks.expect("INST", 64 * instances)):
+        m, (mesh, first_geometry, *reserved) = record[:12], record[12:]
+        reject_if(any(reserved), 2006, "INST: reserved")
+        reject_if(not all(map(math.isfinite, m)), 4007, "a transform is not finite")
+        a, b, c, _, d, e, f, _, g, h, i, _ = m
+        reject_if(a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g) == 0, 4007, "a transform")
+        reject_if(mesh >= meshes, 2018, "mesh of an instance")
+        reject_if(first_geometry < next_geometry or first_geometry + sizes[mesh] > 2**32 - 1, 2018, "geometries of an instance")
+        next_geometry = first_geometry + sizes[mesh]
+        primitives += runs[mesh][1]
+        reject_if(primitives >= 2**31, 2018, "primitives")
+        placed.append((mesh, placed_box(m, mesh_boxes[mesh])))
+    scene["runs"], scene["placed"], scene["mesh_boxes"] = runs, placed, mesh_boxes
+
+
+def around(boxes):
+    return [(min if i < 3 else max)(b[i] for b in boxes) for i in range(6)]
+
+
+LARGEST = struct.unpack("<f", bytes.fromhex("FFFF7F7F"))[0]
+
+
+def round_down(value):
+    """The largest binary32 that is not above `value`, as instances.md 3 has it."""
+    if abs(value) >= LARGEST:
+        return math.copysign(LARGEST, value)
+    rounded = struct.unpack("<f", struct.pack("<f", value))[0]
+    if rounded > value:
+        bits, = struct.unpack("<i", struct.pack("<f", rounded))
+        bits = bits - 1 if bits > 0 else -2**31 + 1 if bits in (0, -2**31) else bits + 1
+        rounded, = struct.unpack("<f", struct.pack("<i", bits))
+    return rounded + 0.0
+
+
+def placed_box(m, box):
+    box_min, box_max = [], []
+    for row in range(3):
+        numbers, t = m[4 * row:4 * row + 3], m[4 * row + 3]
+        low = high = size = 0.0
+        for axis, number in enumerate(numbers):
+            low += min(number * box[axis], number * box[axis + 3])
+            high += max(number * box[axis], number * box[axis + 3])
+            size += abs(number) * max(abs(box[axis]), abs(box[axis + 3]))
+        margin = (size + abs(t)) * 2.0**-18
+        box_min.append(round_down(low + t - margin))
+        box_max.append(-round_down(-(high + t + margin)) + 0.0)
+    return box_min + box_max
 
 
 def inside(inner, outer):
@@ -391,18 +458,26 @@ def insets_of(root, box):
     return own
 
 
-def read_two_level(chunks, slots, references):
+def read_levels(chunks, slots, references, scene):
+    """The top level's nodes, the roots of BLASes as nodes (those of its leaves, or, with instances, of the meshes), the nodes below
+    them, PRIM, and ENTR. Over mvh BLASes all nodes are the first."""
     raw = chunks.expect("FORM", 64)
     tlas_form, blas_form, blas_size, reserved, tlas_slots, blases, *root = struct.unpack_from("<4s4s2I2Q6f", raw)
     quantized, runs = tlas_form == b"quan", blas_form == b"mvh "
     bits, = struct.unpack_from("<I", raw, 56)
     reject_if(reserved != 0 or any(raw[60:] if quantized else raw[32:]), 2006, "FORM: reserved")
-    reject_if(not (2 <= tlas_slots <= slots and tlas_slots % 2 == 0 and blases == tlas_slots // 2 <= references
-                   and 1 <= blas_size <= 65535), 2011, "FORM: counts")
+    reject_if(not (2 <= tlas_slots <= slots and tlas_slots % 2 == 0 and blases == tlas_slots // 2
+                   and ("placed" in scene or blases <= references) and 1 <= blas_size <= 65535), 2011, "FORM: counts")
     reject_if(tlas_form not in (b"aabb", b"quan") or blas_form not in (b"aabb", b"ssh ", b"mvh "), 2010, "form of a level")
     reject_if(blas_form == b"ssh " and references > 2**25, 2011, "references")
     reject_if((quantized or runs) and references > 2**29, 2011, "references")
     slots -= tlas_slots
+    base, trees, entries = tlas_slots, blases, None
+    if "placed" in scene:
+        base, trees = 0, len(scene["runs"])
+        reject_if(runs or blases != len(scene["placed"]), 2020, "leaves of the top level, or mvh BLASes")
+        entries = chunks.expect("ENTR", 4 * blases)
+        reject_if(any(e >= blases for e, in struct.iter_unpack("<I", entries)), 3006, "ENTR")
     if quantized:
         check_quantized(root, bits)
         reject_if(tlas_slots == 2 and runs and references > 128, 2011, "a root that is a leaf")
@@ -427,21 +502,54 @@ def read_two_level(chunks, slots, references):
         for i in leaves:
             mvh_below(nodes, i, insets.get(i, (0.0,) * 6), codes, root, used)
         reject_if(any(code for at, code in enumerate(codes) if at not in used), 2006, "a byte that serves no node")
-        return nodes, chunks.expect("PRIM", 4 * references)
+        return nodes, [], [], chunks.expect("PRIM", 4 * references), None
+    boxes = [(nodes[i][:6], nodes[i][6]) for i in leaves] if entries is None else [(tuple(b), k) for k, b in enumerate(scene["mesh_boxes"])]
     if blas_form == b"aabb":
-        roots = list(struct.iter_unpack("<2I", chunks.expect("ROOT", 8 * blases)))
-        below = [join_aabb(n, i, slots, tlas_slots) for i, n in enumerate(struct.iter_unpack("<6f2I", chunks.expect("BLAS", 32 * slots)))]
-        whole = [join_aabb((*nodes[i][:6], *roots[nodes[i][6]]), -1, slots, tlas_slots) for i in leaves]
+        roots = list(struct.iter_unpack("<2I", chunks.expect("ROOT", 8 * trees)))
+        below = [join_aabb(n, i, slots, base) for i, n in enumerate(struct.iter_unpack("<6f2I", chunks.expect("BLAS", 32 * slots)))]
+        whole = [join_aabb((*box, *roots[k]), -1, slots, base) for box, k in boxes]
     else:
-        roots = struct.unpack(f"<{blases}I", chunks.expect("ROOT", 4 * blases))
+        roots = struct.unpack(f"<{trees}I", chunks.expect("ROOT", 4 * trees))
         inherited, below = {}, []
-        whole = [ssh_node(-1, None, roots[nodes[i][6]], nodes[i][:6], slots, tlas_slots, inherited) for i in leaves]
+        whole = [ssh_node(-1, None, roots[k], box, slots, base, inherited) for box, k in boxes]
         for i, (plane, word) in enumerate(struct.iter_unpack("<fI", chunks.expect("BLAS", 8 * slots))):
             reject_if(i not in inherited, 3003, f"node {i} of the bottom level")
-            below.append(ssh_node(i, plane, word, inherited[i], slots, tlas_slots, inherited))
-    for i, node in zip(leaves, whole):
-        nodes[i] = node
-    return nodes + below, chunks.expect("PRIM", 4 * references)
+            below.append(ssh_node(i, plane, word, inherited[i], slots, base, inherited))
+    return nodes, whole, below, chunks.expect("PRIM", 4 * references), entries
+
+
+def read_two_level(chunks, slots, references):
+    nodes, roots, below, primitives, _ = read_levels(chunks, slots, references, {})
+    leaves = [i for i, node in enumerate(nodes) if node[7] != 0]
+    for i, root in zip(leaves, roots):
+        nodes[i] = root
+    return nodes + below, primitives
+
+
+def check_instanced(chunks, slots, references, stated_depth, scene):
+    """The trees of instances.md 4."""
+    nodes, roots, below, raw, entries = read_levels(chunks, slots, references, scene)
+    boxes = [box for _, box in scene["placed"]]
+    depths = [check_tree(nodes, entries, len(nodes), len(boxes), None, {"triangles": len(boxes), "boxes": boxes})]
+    primitives, slot, entry = struct.unpack(f"<{references}I", raw), 0, 0
+    for root, (first, count) in zip(roots, scene["runs"]):
+        start, pairs, entries = slot, int(root[7] == 0), root[7]
+        while slot < start + 2 * pairs:
+            reject_if(slot >= len(below), 3003, "nodes of a BLAS")
+            entries += below[slot][7]
+            pairs += below[slot][7] == 0
+            slot += 1
+        reject_if(entry + entries > references, 3003, "entries of a BLAS")
+        tree = [(*n[:6], n[6] - (entry if n[7] else start - 2), n[7]) for n in [root] + below[start:slot]]
+        reject_if(any(n[6] < 0 for n in tree), 3003, "a BLAS reaches into another")
+        own = [p - first for p in primitives[entry:entry + entries]]
+        reject_if(any(p < 0 for p in own), 3006, "an entry of another mesh")
+        own = struct.pack(f"<{entries}I", *own)
+        depths.append(check_tree(tree[:1] + [(0,) * 8] + tree[1:], own, 2 + slot - start, entries, None,
+                                 {"triangles": count, "boxes": scene["boxes"][first:first + count]}))
+        entry += entries
+    reject_if(slot != len(below) or entry != references, 3003, "nodes or entries of no BLAS")
+    reject_if(max(depths) != stated_depth, 3009, "depth")
 
 
 def float_up(x):
@@ -551,6 +659,7 @@ FORMS = {b"aabb": read_aabb, b"quan": read_quantized, b"ssh ": read_ssh, b"mvh "
 
 
 def check_tree(nodes, raw_primitives, slots, references, stated_depth, scene):
+    """Checks the tree, and returns its depth."""
     primitives = struct.unpack(f"<{references}I", raw_primitives)
     triangles, boxes = scene["triangles"], scene["boxes"]
     for index, node in enumerate(nodes):
@@ -579,9 +688,9 @@ def check_tree(nodes, raw_primitives, slots, references, stated_depth, scene):
     reject_if(not all(owner), 3005, "gap")
     reject_if(len(leaf_boxes) != triangles, 3007, "a triangle is in no leaf")
     reject_if(max(depth.values()) > 96, 3008, "too deep")
-    reject_if(max(depth.values()) != stated_depth, 3009, "depth")
+    reject_if(stated_depth is not None and max(depth.values()) != stated_depth, 3009, "depth")
     if boxes is None:
-        return
+        return None
     for triangle, leaves in leaf_boxes.items():
         t = boxes[triangle]
         if references == triangles:
@@ -591,6 +700,7 @@ def check_tree(nodes, raw_primitives, slots, references, stated_depth, scene):
             reject_if(not inside(t, hull), 4003, f"triangle {triangle}")
             for b in leaves:
                 reject_if(any(t[i] > b[i + 3] or t[i + 3] < b[i] for i in range(3)), 4003, f"triangle {triangle}")
+    return max(depth.values())
 
 
 def read_tree(chunks, scene):
@@ -598,17 +708,22 @@ def read_tree(chunks, scene):
     form, reserved, slots, references, traversal, intersection, depth = struct.unpack_from("<4sIQQ2fI", raw)
     reject_if(reserved != 0 or any(raw[36:]), 2006, "TREE: reserved")
     reject_if(form not in FORMS, 2010, f"form {form}")
-    reject_if(not (scene["triangles"] <= references < 2**32 and 2 <= slots <= 2 * references and slots < 2**32
+    reject_if(not (scene["triangles"] <= references < 2**32 and 2 <= slots <= 2 * (references + len(scene.get("placed", ()))) and slots < 2**32
                    and slots % 2 == 0 and depth <= 96), 2011, "TREE: counts")
     for cost in (traversal, intersection):
         reject_if(not math.isfinite(cost) or math.copysign(1, cost) < 0, 2012, "SAH cost")
     reject_if(form == b"mvh " and references != scene["triangles"], 2011, "TREE: references")
+    summary = {"form": form.decode().strip(), "nodes": slots - 1, "references": references, "depth": depth}
+    if "placed" in scene:
+        reject_if(form != b"two ", 2020, "form of an instanced scene")
+        check_instanced(chunks, slots, references, depth, scene)
+        return summary
     if form == b"aabb" and chunks.next_is("PRIM"):
         nodes, primitives = read_topology(chunks, slots, references, scene["boxes"])
     else:
         nodes, primitives = FORMS[form](chunks, slots, references)
     check_tree(nodes, primitives, slots, references, depth, scene)
-    return {"form": form.decode().strip(), "nodes": slots - 1, "references": references, "depth": depth}
+    return summary
 
 
 def read_provenance(raw):
@@ -636,6 +751,9 @@ def read(data):
     tools = read_provenance(chunks.expect("PROV")) if chunks.next_is("PROV") else []
     reject_if(bool(chunks.known), 2002, "END should be here")
     geometry = "not decoded" if scene.pop("boxes") is None else "checked"
+    if "placed" in scene:
+        scene["meshes"], scene["instances"] = len(scene.pop("runs")), len(scene.pop("placed"))
+        del scene["mesh_boxes"]
     return {**scene, **tree, "geometry": geometry, "tools": " ".join(tools), "chunks": len(all_chunks),
             "content_hash": f"{content_hash:016x}"}
 

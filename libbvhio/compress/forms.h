@@ -44,6 +44,13 @@ inline EncodeOptions optionsOf(const EncodedBvh& bvh) {
     return std::visit([](const auto& form) { return form.options(); }, bvh);
 }
 
+/// Whether the tree is over the instances of a scene, and trees over its meshes: then it is in the two-level
+/// form.
+inline bool isInstanced(const EncodedBvh& bvh) {
+    const auto* levels = std::get_if<TwoLevelForm>(&bvh);
+    return levels && levels->isInstanced();
+}
+
 /// The canonical tree, boxes as the form reconstructs them.
 inline Bvh decode(const EncodedBvh& bvh) {
     return std::visit([](const auto& form) { return form.decode(); }, bvh);

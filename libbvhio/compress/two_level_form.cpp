@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compress/forest.h"
 #include "core/buffer.h"
 #include "core/error.h"
 
@@ -106,6 +107,22 @@ void refuseTooDeep(const Bvh& bvh) {
     }
 }
 
+/// A mesh's tree as a BLAS: primitives count through the scene, the root has the mesh's box, and no other box
+/// leaves that.
+Bvh within(const Bvh& bvh, const Aabb& meshBounds, uint32_t firstTriangle) {
+    Buffer<Node> nodes(bvh.nodes.size());
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        nodes[i] = bvh.nodes[i];
+        if (i == 1) continue;
+        nodes[i].bounds = {max(nodes[i].bounds.min, meshBounds.min),
+                           min(nodes[i].bounds.max, meshBounds.max)};
+    }
+    nodes[0].bounds = meshBounds;
+    std::vector<uint32_t> primitives(bvh.primitives.begin(), bvh.primitives.end());
+    for (uint32_t& primitive : primitives) primitive += firstTriangle;
+    return {std::move(nodes).share(), std::move(primitives)};
+}
+
 }  // namespace
 
 TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options) {
@@ -136,7 +153,79 @@ TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Enco
     return form;
 }
 
+TwoLevelForm TwoLevelForm::encodeInstances(const Scene& scene, const InstancedBvh& bvh,
+                                           const EncodeOptions& options) {
+    // Entries follow each other as the leaves do.
+    Buffer<Node> top(bvh.top.nodes.size());
+    Buffer<uint32_t> leafOrder(bvh.top.primitives.size());
+    uint32_t entry = 0;
+    for (size_t i = 0; i < top.size(); ++i) {
+        top[i] = bvh.top.nodes[i];
+        if (!top[i].isLeaf()) continue;
+        leafOrder[entry] = bvh.top.primitives[top[i].first];
+        top[i].first = entry++;
+    }
+    PlacedBlases placed(scene, std::move(leafOrder).share());
+    // As where a tree is cut, a top level of one leaf owns the one entry.
+    const Bvh entries{std::move(top).share(), std::vector<uint32_t>{0}};
+    Tlas tlas = makeAlternative<Tlas>(size_t(options.tlasForm), [&](const auto* type) -> Tlas {
+        return encodeTlas<std::decay_t<decltype(*type)>>(scene, entries, options);
+    });
+
+    std::vector<Bvh> trees;
+    for (size_t i = 0; i < bvh.meshes.size(); ++i)
+        trees.push_back(within(bvh.meshes[i], placed.meshBounds[i], scene.meshes[i].firstTriangle));
+    GatheredTrees gathered = gatherTrees(trees);
+    Blases blases = makeAlternative<Blases>(size_t(options.blasForm), [&](const auto* type) -> Blases {
+        using Bottom = std::decay_t<decltype(*type)>;
+        if constexpr (Bottom::kAreRuns)
+            throw Error(
+                ErrorKind::usage,
+                "--blas-form mvh: the scene has instances, whose meshes are not cut: use ssh or aabb");
+        else
+            return Bottom::encode(gathered.forest, gathered.primitives.size());
+    });
+    return {std::move(tlas), std::move(blases), std::move(gathered.primitives), EncodeOptions{}.blasSize,
+            std::move(placed)};
+}
+
+TwoLevels TwoLevelForm::decodeLevels() const {
+    Bvh top = std::visit([](const auto& level) { return level.decode().bvh; }, tlas_);
+    Forest bottom = std::visit(
+        [&](const auto& level) -> Forest {
+            if constexpr (std::decay_t<decltype(level)>::kAreRuns)
+                return {};  // no form for instances
+            else
+                return level.decode(placed_.meshBounds);
+        },
+        blases_);
+    return {std::move(top), std::move(bottom)};
+}
+
+InstancedBvh TwoLevelForm::decodeInstances(const Scene& scene) const {
+    const TwoLevels levels = decodeLevels();
+    InstancedBvh bvh{{levels.top.nodes, placed_.instances}, {}};
+    std::vector<Bvh> trees = separateTrees(levels.bottom, primitives_)->trees;
+    for (size_t i = 0; i < trees.size(); ++i) {
+        std::vector<uint32_t> own(trees[i].primitives.begin(), trees[i].primitives.end());
+        for (uint32_t& triangle : own) triangle -= scene.meshes[i].firstTriangle;
+        bvh.meshes.push_back({trees[i].nodes, std::move(own)});
+    }
+    return bvh;
+}
+
+PlacedBlases::PlacedBlases(const Scene& scene, SharedArray<uint32_t> leafOrder)
+    : instances(std::move(leafOrder)), meshBounds(scene.meshes.size()) {
+    const std::vector<InstanceEntry> all = instanceEntries(scene);
+    for (const uint32_t instance : instances) entries.push_back(all[instance]);
+    for (size_t i = 0; i < meshBounds.size(); ++i) meshBounds[i] = scene.boundsOf(scene.meshes[i]);
+}
+
 Bvh TwoLevelForm::decode() const {
+    if (isInstanced())
+        throw Error(
+            ErrorKind::usage,
+            "the scene has instances, whose trees do not make one: build without --two-level for that");
     const DecodedTlas top = std::visit([](const auto& level) { return level.decode(); }, tlas_);
     return std::visit(
         [&](const auto& level) -> Bvh {
@@ -161,7 +250,8 @@ size_t TwoLevelForm::tlasBytes() const {
 }
 
 size_t TwoLevelForm::nodeBytes() const {
-    return tlasBytes() + std::visit([](const auto& level) { return level.nodeBytes(); }, blases_);
+    return tlasBytes() + std::visit([](const auto& level) { return level.nodeBytes(); }, blases_) +
+           placed_.bytes();
 }
 
 }  // namespace bvhio

@@ -3,6 +3,10 @@
 // Magnor, "The Minimal Bounding Volume Hierarchy", VMV 2010, whose top has full nodes and whose bottom has
 // their minimal ones: the few nodes that every ray meets may be large, the many that few rays meet are small.
 //
+// The same form holds instances (after S. G. Rubin and T. Whitted, "A 3-Dimensional Representation for Fast
+// Rendering of Complex Scenes", SIGGRAPH 1980): then BLASes are trees over the scene's meshes, each in the
+// mesh's own space, and a leaf of the top level is an instance that enters one of them.
+//
 // Departures: either level may be in several forms, a BLAS takes over its root's box from the leaf above it,
 // and the tree is cut where subtrees have at most a given number of primitives.
 #pragma once
@@ -13,8 +17,23 @@
 
 #include "compress/blases.h"
 #include "compress/tlas.h"
+#include "scene/instanced_bvh.h"
 
 namespace bvhio {
+
+/// What instances need to be entered, in the order of the top level's leaves.
+struct PlacedBlases {
+    SharedArray<uint32_t> instances;     // which instance of the scene the entry is
+    std::vector<InstanceEntry> entries;  // from the scene, so not stored again
+    std::vector<Aabb> meshBounds;        // the boxes of BLASes' roots
+
+    PlacedBlases() = default;
+    PlacedBlases(const Scene& scene, SharedArray<uint32_t> leafOrder);
+    bool empty() const { return entries.empty(); }
+    size_t bytes() const {
+        return entries.size() * (sizeof(InstanceEntry) + sizeof(uint32_t)) + meshBounds.size() * sizeof(Aabb);
+    }
+};
 
 class TwoLevelForm {
   public:
@@ -26,19 +45,32 @@ class TwoLevelForm {
     using Tlas = std::variant<QuantizedTlas, AabbTlas>;
     using Blases = std::variant<MvhBlases, SshBlases, AabbBlases>;
 
-    /// Leaves of `tlas` own the index of a BLAS each, or, where BLASes are runs, the run of primitives that
-    /// is one. As in format-spec/two-level.md.
-    TwoLevelForm(Tlas tlas, Blases blases, SharedArray<uint32_t> primitives, uint32_t blasSize)
+    /// Leaves of `tlas` have one entry each: the index of a BLAS, or of an entry of `placed`; or, where
+    /// BLASes are runs, the run of primitives that is one. As in format-spec/two-level.md.
+    TwoLevelForm(Tlas tlas, Blases blases, SharedArray<uint32_t> primitives, uint32_t blasSize,
+                 PlacedBlases placed = {})
         : tlas_(std::move(tlas)),
           blases_(std::move(blases)),
           primitives_(std::move(primitives)),
-          blasSize_(blasSize) {}
+          blasSize_(blasSize),
+          placed_(std::move(placed)) {}
 
     /// O(n). Throws Error{unsupported} where the forms of the levels do.
     static TwoLevelForm encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options);
 
-    /// The nodes of the top level, those of the bottom level behind them.
+    /// Of valid trees over an instanced scene. Throws Error{unsupported} where the forms of the levels do.
+    static TwoLevelForm encodeInstances(const Scene& scene, const InstancedBvh& bvh,
+                                        const EncodeOptions& options);
+
+    /// The nodes of the top level, those of the bottom level behind them. Throws Error{usage} when the form
+    /// holds instances: their trees do not make one.
     Bvh decode() const;
+    bool isInstanced() const { return !placed_.empty(); }
+    /// The trees of an instanced scene.
+    InstancedBvh decodeInstances(const Scene& scene) const;
+    /// Both levels of an instanced scene, as they lie.
+    TwoLevels decodeLevels() const;
+    const PlacedBlases& placed() const { return placed_; }
     const Tlas& tlas() const { return tlas_; }
     const Blases& blases() const { return blases_; }
     const SharedArray<uint32_t>& primitives() const { return primitives_; }
@@ -51,6 +83,7 @@ class TwoLevelForm {
     Blases blases_;
     SharedArray<uint32_t> primitives_;
     uint32_t blasSize_;
+    PlacedBlases placed_;
 };
 static_assert(StoredForm<TwoLevelForm>);
 

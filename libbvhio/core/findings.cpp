@@ -43,7 +43,12 @@ std::span<const FindingKind> findingKinds() {
         {text, invalid, "a text is not well-formed UTF-8"},
         {draco, invalid, "the Draco geometry does not decode to the stated counts"},
         {topology, invalid, "the topology does not decode to a tree with the stated counts"},
+        {meshRuns, invalid, "the meshes do not cover the geometries, or one has no triangles"},
+        {instances, invalid,
+         "an instance's mesh or geometry is out of range, or there are too many primitives"},
         {formParameter, invalid, "a parameter of the form is out of range"},
+        {treeOfInstances, invalid,
+         "the tree's form or the geometry's encoding is none for a scene with instances"},
 
         {unusedSlot, invalid, "the unused node slot beside the root is not zero"},
         {childIndex, invalid, "an inner node's children are out of range, at an odd index or not behind it"},
@@ -62,6 +67,7 @@ std::span<const FindingKind> findingKinds() {
         {vertexNotFinite, invalid, "a vertex is not finite"},
         {negativeZero, invalid, "a vertex coordinate is -0"},
         {vertexIndex, invalid, "a triangle's vertex index is out of range"},
+        {instanceTransform, invalid, "an instance's transform is not finite or cannot be inverted"},
         {degenerateTriangles, usage, "triangles have zero area"},
         {unusedVertices, usage, "vertices belong to no triangle"},
     };

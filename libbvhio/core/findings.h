@@ -50,7 +50,10 @@ enum class FindingId : uint32_t {
     text = 2014,
     draco = 2015,
     topology = 2016,
+    meshRuns = 2017,
+    instances = 2018,
     formParameter = 2019,
+    treeOfInstances = 2020,
 
     unusedSlot = 3001,
     childIndex = 3002,
@@ -69,6 +72,7 @@ enum class FindingId : uint32_t {
     vertexNotFinite = 4004,
     negativeZero = 4005,
     vertexIndex = 4006,
+    instanceTransform = 4007,
     degenerateTriangles = 4101,
     unusedVertices = 4102,
 };

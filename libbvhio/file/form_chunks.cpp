@@ -16,7 +16,8 @@ namespace {
 
 constexpr size_t kTreeSize = 64;
 
-TreeParameters readParameters(ChunkSequence& chunks, uint64_t triangles) {
+TreeParameters readParameters(ChunkSequence& chunks, const Scene& scene) {
+    const uint64_t triangles = scene.triangles.size();
     const Bytes payload = chunks.expect(kTreeType, kTreeSize);
     ByteReader reader(payload, "chunk TREE");
     TreeParameters p;
@@ -30,7 +31,8 @@ TreeParameters readParameters(ChunkSequence& chunks, uint64_t triangles) {
     zero &= reader.skipZeros(reader.remaining());
     if (!zero) chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
     if (p.references < triangles || p.references > 0xFFFFFFFF || p.nodeSlots < 2 || p.nodeSlots % 2 != 0 ||
-        p.nodeSlots > 2 * p.references || p.nodeSlots > 0xFFFFFFFE || p.depth > kMaxDepth)
+        p.nodeSlots > 2 * (p.references + scene.instances.size()) || p.nodeSlots > 0xFFFFFFFE ||
+        p.depth > kMaxDepth)
         chunks.fail(FindingId::treeCounts, std::to_string(p.nodeSlots) + " node slots and " +
                                                std::to_string(p.references) + " references of depth " +
                                                std::to_string(p.depth) + " are no tree over " +
@@ -49,7 +51,12 @@ EncodedBvh readForm(ChunkSequence& chunks, const TreeParameters& parameters, con
                     "unknown form '" + chunkTypeName(parameters.form) + "': use a newer bvhx");
     } else {
         using Chunks = FormChunks<std::variant_alternative_t<I, EncodedBvh>>;
-        if (Chunks::kCode == parameters.form) return Chunks::read(chunks, parameters, scene);
+        if (Chunks::kCode == parameters.form) {
+            if (scene.isInstanced() && Chunks::kCode != FormChunks<TwoLevelForm>::kCode)
+                chunks.fail(FindingId::treeOfInstances,
+                            "a scene with instances has its tree in the two-level form");
+            return Chunks::read(chunks, parameters, scene);
+        }
         return readForm<I + 1>(chunks, parameters, scene);
     }
 }
@@ -95,7 +102,7 @@ EncodedBvh refitTo(const EncodedBvh& bvh, const Scene& scene) {
 }
 
 StoredTree readTree(ChunkSequence& chunks, const Scene& scene) {
-    const TreeParameters parameters = readParameters(chunks, scene.triangles.size());
+    const TreeParameters parameters = readParameters(chunks, scene);
     return {readForm(chunks, parameters, scene), parameters.costs};
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/bytes.h"
 #include "core/parallel.h"
+#include "file/instance_chunks.h"
 #include "file/utf8.h"
 #include "scene/draco_mesh.h"
 #include "scene/scene_order.h"
@@ -15,11 +16,12 @@ namespace {
 
 constexpr size_t kSceneSize = 64;
 constexpr uint32_t kRawEncoding = 0, kDracoEncoding = 1;
-constexpr uint32_t kHasSourcePrimitives = 1;
+constexpr uint32_t kHasSourcePrimitives = 1, kHasInstances = 2;
 
 struct SceneParameters {
     uint64_t vertices, triangles, geometries, nameBytes;
     uint32_t encoding, flags;
+    InstanceCounts instances;
 };
 
 SceneParameters readParameters(ChunkSequence& chunks) {
@@ -32,7 +34,11 @@ SceneParameters readParameters(ChunkSequence& chunks) {
     p.nameBytes = reader.u64();
     p.encoding = reader.u32();
     p.flags = reader.u32();
-    if (!reader.skipZeros(reader.remaining()) || p.flags > kHasSourcePrimitives)
+    p.instances.meshes = reader.u32();
+    p.instances.instances = reader.u32();
+    const bool isInstanced = (p.flags & kHasInstances) != 0;
+    if (!reader.skipZeros(reader.remaining()) || p.flags > (kHasSourcePrimitives | kHasInstances) ||
+        (!isInstanced && (p.instances.meshes != 0 || p.instances.instances != 0)))
         chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
     constexpr uint64_t kMax32 = 0xFFFFFFFF;
     if (p.vertices == 0 || p.vertices > kMax32 || p.triangles == 0 || p.triangles > kMax32 >> 1 ||
@@ -41,6 +47,13 @@ SceneParameters readParameters(ChunkSequence& chunks) {
                     std::to_string(p.vertices) + " vertices, " + std::to_string(p.triangles) +
                         " triangles, " + std::to_string(p.geometries) + " geometries, " +
                         std::to_string(p.nameBytes) + " bytes of names are out of range");
+    if (isInstanced && (p.instances.meshes == 0 || p.instances.meshes > p.geometries ||
+                        p.instances.instances == 0 || p.instances.instances > kMaxPrimitives))
+        chunks.fail(FindingId::sceneCounts, std::to_string(p.instances.meshes) + " meshes and " +
+                                                std::to_string(p.instances.instances) +
+                                                " instances are out of range");
+    if (isInstanced && p.encoding == kDracoEncoding)
+        chunks.fail(FindingId::treeOfInstances, "a scene with instances has its geometry in Draco");
     if (p.encoding > kDracoEncoding)
         chunks.fail(FindingId::unknownGeometryEncoding,
                     "unknown geometry encoding " + std::to_string(p.encoding) + ": use a newer bvhx");
@@ -115,6 +128,10 @@ void findBad(size_t count, size_t maxFound, const AnyBad& anyBad, const Report& 
 
 StoredScene storeScene(const Scene& scene, const WriteOptions& options) {
     if (options.geometry == GeometryEncoding::raw) return {scene, {}};
+    if (scene.isInstanced())
+        throw Error(ErrorKind::usage,
+                    "--geometry draco: one grid cannot serve the spaces of several meshes: build without "
+                    "--two-level, or keep --geometry raw");
     StoredScene stored{scene, encodeDraco(scene.vertices, scene.triangles, options.dracoPositionBits)};
     if (options.dracoVertices == VertexOrder::smaller) {
         const Scene byUse = withVerticesByUse(scene);
@@ -146,7 +163,10 @@ void writeScene(ContainerWriter& writer, const StoredScene& stored) {
     parameters.u64(scene.geometries.size());
     parameters.u64(names.size());
     parameters.u32(stored.draco.empty() ? kRawEncoding : kDracoEncoding);
-    parameters.u32(scene.sourcePrimitives.empty() ? 0 : kHasSourcePrimitives);
+    parameters.u32((scene.sourcePrimitives.empty() ? 0 : kHasSourcePrimitives) |
+                   (scene.isInstanced() ? kHasInstances : 0));
+    parameters.u32(uint32_t(scene.meshes.size()));
+    parameters.u32(uint32_t(scene.instances.size()));
     parameters.zeros(kSceneSize - parameters.bytes().size());
     writeChunk(writer, kSceneType, parameters.bytes());
 
@@ -159,6 +179,7 @@ void writeScene(ContainerWriter& writer, const StoredScene& stored) {
     writeChunk(writer, kGeometriesType, geometries.bytes());
     if (!scene.sourcePrimitives.empty())
         writeArrayChunk(writer, kSourcePrimitivesType, scene.sourcePrimitives);
+    if (scene.isInstanced()) writeInstances(writer, scene);
 }
 
 Scene readScene(ChunkSequence& chunks) {
@@ -175,6 +196,7 @@ Scene readScene(ChunkSequence& chunks) {
     scene.geometries = readGeometries(chunks, parameters);
     if ((parameters.flags & kHasSourcePrimitives) != 0)
         scene.sourcePrimitives = chunks.expectArray<uint32_t>(kSourcePrimitivesType, parameters.triangles);
+    if ((parameters.flags & kHasInstances) != 0) readInstances(chunks, parameters.instances, scene);
     return scene;
 }
 

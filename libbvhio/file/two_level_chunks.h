@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compress/two_level_form.h"
+#include "file/instance_tree.h"
 #include "file/level_chunks.h"
 #include "file/tree_chunks.h"
 
@@ -14,6 +15,7 @@ struct FormChunks<TwoLevelForm> {
     static constexpr uint32_t kMaxBlasSize = kMaxLeafSize;
 
     static TreeParameters parameters(const TwoLevelForm& form) {
+        if (form.isInstanced()) return parametersOfInstances(kCode, form);
         const Bvh bvh = form.decode();
         return {kCode, bvh.nodes.size(), bvh.primitives.size(), {}, depthOf(bvh)};
     }
@@ -37,6 +39,7 @@ struct FormChunks<TwoLevelForm> {
                 bytes.u32(counts.bits);
                 bytes.zeros(kFormSize - bytes.bytes().size());
                 writeChunk(writer, kFormType, bytes.bytes());
+                if (form.isInstanced()) writeArrayChunk(writer, kEntriesType, form.placed().instances);
                 TlasChunks::write(writer, tlas);
                 BlasChunks::write(writer, blases);
                 writeArrayChunk(writer, kPrimitivesType, form.primitives());
@@ -63,7 +66,8 @@ struct FormChunks<TwoLevelForm> {
         zero &= reader.skipZeros(reader.remaining());
         if (!zero) chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
         if (counts.tlasSlots < 2 || counts.tlasSlots % 2 != 0 || counts.tlasSlots > parameters.nodeSlots ||
-            counts.blases != counts.tlasSlots / 2 || counts.blases > parameters.references || blasSize == 0 ||
+            counts.blases != counts.tlasSlots / 2 ||
+            (!scene.isInstanced() && counts.blases > parameters.references) || blasSize == 0 ||
             blasSize > kMaxBlasSize)
             chunks.fail(FindingId::treeCounts, std::to_string(counts.tlasSlots) + " slots over " +
                                                    std::to_string(counts.blases) + " BLASes of at most " +
@@ -71,11 +75,30 @@ struct FormChunks<TwoLevelForm> {
                                                    " references are no top level of " +
                                                    std::to_string(parameters.nodeSlots) + " slots");
 
+        SharedArray<uint32_t> entries;
+        LevelCounts bottom = counts;
+        if (scene.isInstanced()) {
+            if (counts.blases != scene.instances.size() || counts.areRuns)
+                chunks.fail(FindingId::treeOfInstances,
+                            std::to_string(counts.blases) + " leaves of the top level for " +
+                                std::to_string(scene.instances.size()) + " instances, or BLASes in mvh");
+            entries = readEntries(chunks, scene);
+            counts.references = entries.size();
+            bottom.blases = scene.meshes.size();
+        }
         auto [tlas, tlasPlace] = readLevel<TwoLevelForm::Tlas>(chunks, tlasCode, counts);
-        auto [blases, blasPlace] = readLevel<TwoLevelForm::Blases>(chunks, blasCode, counts);
+        auto [blases, blasPlace] = readLevel<TwoLevelForm::Blases>(chunks, blasCode, bottom);
         if (counts.areRuns) checkRuns(chunks, tlas, std::get<MvhBlases>(blases), counts);
-        TwoLevelForm form(std::move(tlas), std::move(blases),
-                          chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references), blasSize);
+        // What places BLASes is made of geometry: only that which is sound.
+        PlacedBlases placed;
+        auto primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
+        if (scene.isInstanced() && chunks.sound()) placed = PlacedBlases(scene, std::move(entries));
+        TwoLevelForm form(std::move(tlas), std::move(blases), std::move(primitives), blasSize,
+                          std::move(placed));
+        if (scene.isInstanced()) {
+            if (chunks.sound()) judgeInstances(chunks, form, parameters, scene, tlasPlace, blasPlace);
+            return form;
+        }
         judgeTree(chunks, form.decode(), parameters, scene,
                   [&, ofTlas = tlasPlace, ofBlas = blasPlace](uint64_t node) {
                       return node < counts.tlasSlots ? ofTlas.of(node) : ofBlas.of(node - counts.tlasSlots);

@@ -11,7 +11,8 @@ SizeStats sizeStats(const Scene& scene, const EncodedBvh& encoded) {
         },
         encoded);
     stats.geometry = scene.vertices.size() * sizeof(Vec3) + scene.triangles.size() * sizeof(TriangleIndices) +
-                     scene.sourcePrimitives.size() * sizeof(uint32_t);
+                     scene.sourcePrimitives.size() * sizeof(uint32_t) +
+                     scene.meshes.size() * sizeof(SceneMesh) + scene.instances.size() * sizeof(SceneInstance);
     stats.triangles = scene.triangles.size();
     return stats;
 }

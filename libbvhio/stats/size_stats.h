@@ -10,8 +10,8 @@ namespace bvhio {
 struct SizeStats {
     uint64_t nodes = 0;       // as the form stores them
     uint64_t primitives = 0;  // the leaves' references
-    uint64_t geometry = 0;    // vertices, triangles and source numbers
-    uint64_t triangles = 0;   // what the per-primitive figures divide by
+    uint64_t geometry = 0;    // vertices, triangles, source numbers, meshes and instances
+    uint64_t triangles = 0;   // what the per-primitive figures divide by: those stored
 
     double nodeBytesPerPrimitive() const { return double(nodes) / double(triangles); }
     double bytesPerPrimitive() const { return double(nodes + primitives + geometry) / double(triangles); }

@@ -16,7 +16,29 @@ std::string hashText(uint64_t hash) {
     return text;
 }
 
+namespace {
+
+/// What there is to say of an instanced scene: there is no one tree, and so neither layout, slack, overlap
+/// nor hashes.
+Report instancedReport(const Scene& scene, const EncodedBvh& encoded, const StatsOptions& options) {
+    const InstancedBvh bvh = std::get<TwoLevelForm>(encoded).decodeInstances(scene);
+    Report report;
+    report["form"] = formNameOf(encoded);
+    report["primitives"] = scene.triangles.size();
+    report["meshes"] = scene.meshes.size();
+    report["instances"] = scene.instances.size();
+    report["instanced_primitives"] = scene.primitiveCount();
+    addTo(report, treeStats(scene, bvh, options.costs));
+    report["epo"] = nullptr;
+    addTo(report, sizeStats(scene, encoded));
+    report["geometry_hash"] = hashText(geometryHash(scene));
+    return report;
+}
+
+}  // namespace
+
 Report statsReport(const Scene& scene, const EncodedBvh& encoded, const StatsOptions& options) {
+    if (isInstanced(encoded)) return instancedReport(scene, encoded, options);
     const Bvh bvh = std::visit([](const auto& form) { return form.decode(); }, encoded);
     Report report;
     report["form"] = std::visit([](const auto& form) { return form.kName; }, encoded);

@@ -1,5 +1,6 @@
 #include "stats/tree_stats.h"
 
+#include <algorithm>
 #include <charconv>
 #include <string>
 
@@ -21,6 +22,11 @@ double sharedHalfArea(const Aabb& a, const Aabb& b) {
 void count(std::vector<uint64_t>& histogram, size_t value) {
     if (histogram.size() <= value) histogram.resize(value + 1);
     ++histogram[value];
+}
+
+void add(std::vector<uint64_t>& histogram, const std::vector<uint64_t>& other) {
+    if (histogram.size() < other.size()) histogram.resize(other.size());
+    for (size_t value = 0; value < other.size(); ++value) histogram[value] += other[value];
 }
 
 Report histogramReport(const std::vector<uint64_t>& histogram) {
@@ -75,6 +81,46 @@ TreeStats treeStats(const Bvh& bvh, const SahCosts& costs) {
     stats.averageLeafDepth = depths / double(stats.leaves);
     stats.childOverlap = innerArea > 0 ? sharedArea / innerArea : 0;
     return stats;
+}
+
+TreeStats treeStats(const Scene& scene, const InstancedBvh& bvh, const SahCosts& costs) {
+    TreeStats stats = treeStats(bvh.top, costs);
+    std::vector<double> entered(bvh.meshes.size());  // how many of a mesh's instances a line is to enter
+    const double rootArea = halfArea(bvh.top.nodes[0].bounds);
+    for (size_t i = 0; i < bvh.top.nodes.size(); ++i) {
+        const Node& leaf = bvh.top.nodes[i];
+        if (!leaf.isLeaf()) continue;
+        entered[scene.instances[bvh.top.primitives[leaf.first]].mesh] +=
+            rootArea > 0 ? halfArea(leaf.bounds) / rootArea : 1;
+    }
+    stats.references = stats.leaves = 0;
+    stats.expectedLeaves = stats.expectedTriangles = 0;
+    stats.leafDepths.clear();
+    stats.leafSizes.clear();
+    double depths = 0;
+    for (size_t i = 0; i < bvh.meshes.size(); ++i) {
+        const TreeStats mesh = treeStats(bvh.meshes[i], costs);
+        stats.references += mesh.references;
+        stats.nodes += mesh.nodes;
+        stats.innerNodes += mesh.innerNodes;
+        stats.leaves += mesh.leaves;
+        stats.maxDepth = std::max(stats.maxDepth, mesh.maxDepth);
+        depths += mesh.averageLeafDepth * double(mesh.leaves);
+        stats.expectedInnerNodes += entered[i] * mesh.expectedInnerNodes;
+        stats.expectedLeaves += entered[i] * mesh.expectedLeaves;
+        stats.expectedTriangles += entered[i] * mesh.expectedTriangles;
+        add(stats.leafDepths, mesh.leafDepths);
+        add(stats.leafSizes, mesh.leafSizes);
+    }
+    stats.averageLeafDepth = depths / double(stats.leaves);
+    stats.sahCost = double(costs.traversal) * stats.expectedInnerNodes +
+                    double(costs.intersection) * stats.expectedTriangles;
+    return stats;
+}
+
+double sahCost(const Scene& scene, const EncodedBvh& bvh, const SahCosts& costs) {
+    if (!isInstanced(bvh)) return sahCost(decode(bvh), costs);
+    return treeStats(scene, std::get<TwoLevelForm>(bvh).decodeInstances(scene), costs).sahCost;
 }
 
 void addTo(Report& report, const TreeStats& stats) {

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compress/forms.h"
 #include "core/bvh.h"
 #include "core/report.h"
 #include "core/sah_cost.h"
@@ -29,6 +30,14 @@ struct TreeStats {
 };
 
 TreeStats treeStats(const Bvh& bvh, const SahCosts& costs);
+
+/// Of an instanced scene's trees. Counts are sums over all of them, but leaves those of meshes; depths count
+/// within each tree. To the SAH an instance is a leaf of the top that costs what the mesh's tree does in the
+/// mesh's own space, and child_overlap is that of the top.
+TreeStats treeStats(const Scene& scene, const InstancedBvh& bvh, const SahCosts& costs);
+
+/// The cost of a tree as its form stores it, instanced or not.
+double sahCost(const Scene& scene, const EncodedBvh& bvh, const SahCosts& costs);
 
 /// Adds the keys references, nodes, inner_nodes, leaves, max_depth, average_leaf_depth, sah_cost,
 /// traversal_cost, intersection_cost, expected{inner_nodes, leaves, triangles}, child_overlap,

@@ -96,10 +96,18 @@ auto bruteForce(const Scene& scene, const Ray& given) {
 }
 
 std::vector<PrimitiveRange> leavesOf(const EncodedBvh& encoded) {
-    const Bvh bvh = std::visit([](const auto& form) { return form.decode(); }, encoded);
     std::vector<PrimitiveRange> leaves;
-    for (const Node& node : bvh.nodes)
-        if (node.isLeaf()) leaves.push_back({node.first, node.primitiveCount});
+    const auto addAmong = [&](std::span<const Node> nodes) {
+        for (const Node& node : nodes)
+            if (node.isLeaf()) leaves.push_back({node.first, node.primitiveCount});
+    };
+    if (isInstanced(encoded)) {
+        const Forest meshes = std::get<TwoLevelForm>(encoded).decodeLevels().bottom;
+        addAmong(meshes.roots);
+        addAmong(meshes.nodes);
+    } else {
+        addAmong(decode(encoded).nodes);
+    }
     return leaves;
 }
 

@@ -29,6 +29,9 @@ struct IndexedTriangles {
     const Scene& scene;
     std::span<const uint32_t> primitives;
 
+    /// The same triangles, for another ray.
+    HWY_INLINE IndexedTriangles of(const PreparedRay&) const { return *this; }
+
     template <class Query>
     BVHIO_INLINE bool test(PrimitiveRange range, const PreparedRay& ray, Query& query) const {
         for (uint32_t i = range.first; i < range.first + range.count; ++i) {

@@ -61,12 +61,71 @@ HWY_NOINLINE void traverseLevels(const Tlas& tlas, const Blases& blases, const S
                       metrics);
 }
 
+/// Visits leaves of a top level over instances: walks through the BLAS there with the ray in its space. The
+/// definition of a hit is in scene/instance.h.
+template <class Tlas, class Blases, class Source, class Query, class Metrics>
+struct TraverseInstance {
+    const Tlas& tlas;
+    const Blases& blases;
+    const PlacedBlases& placed;
+    const Source& source;
+    const PreparedRay& ray;
+    Query& query;
+    Metrics& metrics;
+
+    HWY_INLINE bool operator()(const Entered<typename Tlas::Cursor>& leaf) const {
+        const uint32_t number = tlas.primitiveRange(leaf.cursor).first;
+        const InstanceEntry& entry = placed.entries[number];
+        metrics.recordFetched(blases.nodeBytes() + number * sizeof(InstanceEntry), sizeof(InstanceEntry));
+        metrics.boxesTested(1, AabbForm::kBoxTestCost);
+        const RayInterval inWorld = clipToBox(ray, entry.bounds, query.boxLimit());
+        if (inWorld.isEmpty()) return false;
+
+        const PreparedRay local(objectRay(entry.toObject, ray));
+        const Aabb& box = placed.meshBounds[entry.mesh];
+        metrics.recordFetched(
+            blases.nodeBytes() + placed.entries.size() * sizeof(InstanceEntry) + entry.mesh * sizeof(Aabb),
+            sizeof(Aabb));
+        metrics.boxesTested(1, AabbForm::kBoxTestCost);
+        const RayInterval inMesh = clipToBox(local, box, query.boxLimit());
+        if (local.missesByDefinition() || inMesh.isEmpty()) return false;
+
+        using Within = InstanceQuery<Query>;
+        Within within(query, inWorld.enter, entry.primitiveOffset);
+        const typename Blases::Ray blasRay = blases.prepare(local, box);
+        const auto root = blases.root({entry.mesh, 1}, BoxEntry{local, box, inMesh.enter, query.boxLimit()},
+                                      blasRay, metrics);
+        const Source triangles = source.of(local);
+        return traverseFrom(
+            blases, root, blasRay, within, metrics,
+            TestTriangles<Blases, Source, Within, Metrics>{blases, triangles, local, within, metrics});
+    }
+};
+
+template <class Tlas, class Blases, class Source, class Query, class Metrics>
+HWY_NOINLINE void traverseInstances(const Tlas& tlas, const Blases& blases, const PlacedBlases& placed,
+                                    const Source& source, const PreparedRay& ray, Query& query,
+                                    Metrics& metrics) {
+    const typename Tlas::Ray tlasRay = tlas.prepare(ray);
+    Entered<typename Tlas::Cursor> root;
+    if (!tlas.enterRoot(tlasRay, query.boxLimit(), root, metrics)) return;
+    MetricsBehind<Metrics> behind{metrics, tlas.form().nodeBytes()};
+    traverseFrom(tlas, root, tlasRay, query, metrics,
+                 TraverseInstance<Tlas, Blases, Source, Query, MetricsBehind<Metrics>>{
+                     tlas, blases, placed, source, ray, query, behind});
+}
+
 template <class Source, class Query, class Metrics>
 HWY_INLINE void traverse(const TwoLevelForm& form, const Source& source, const PreparedRay& ray, Query& query,
                          Metrics& metrics) {
-    std::visit([&](const auto& tlas,
-                   const auto& blases) { traverseLevels(tlas, blases, source, ray, query, metrics); },
-               form.tlas(), form.blases());
+    std::visit(
+        [&](const auto& tlas, const auto& blases) {
+            if constexpr (!std::decay_t<decltype(blases)>::kAreRuns)
+                if (form.isInstanced())
+                    return traverseInstances(tlas, blases, form.placed(), source, ray, query, metrics);
+            traverseLevels(tlas, blases, source, ray, query, metrics);
+        },
+        form.tlas(), form.blases());
 }
 
 }  // namespace bvhio::HWY_NAMESPACE

@@ -35,6 +35,9 @@ class BlockTriangles {
           shearX_(float(ray.shearX)),
           shearY_(float(ray.shearY)) {}
 
+    /// The same triangles, for another ray.
+    HWY_INLINE BlockTriangles of(const PreparedRay& ray) const { return {blocks_, ray}; }
+
     template <class Query>
     HWY_INLINE bool test(PrimitiveRange range, const PreparedRay& ray, Query& query) const {
         const float* const block = blocks_.block(range.first);

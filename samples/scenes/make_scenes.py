@@ -173,13 +173,77 @@ def courtyard():
     return meshes, nodes
 
 
+def tuft(blades):
+    """A tuft of bent blades of grass, each two quads that narrow."""
+    mesh = Mesh()
+    for i in range(blades):
+        angle = 2.4 * i
+        c, s = math.cos(angle), math.sin(angle)
+        height, lean, half = 0.3 + 0.05 * (i % 4), 0.04 + 0.03 * (i % 3), 0.012
+        rows = [[mesh.vertex(c * out - s * side, y, s * out + c * side) for side in (-w, w)]
+                for out, y, w in ((0.02, 0, half), (0.02 + lean, 0.6 * height, 0.8 * half), (0.02 + 3 * lean, height, 0.1 * half))]
+        for low, high in zip(rows, rows[1:]):
+            mesh.quad(low[0], low[1], high[1], high[0])
+    return mesh
+
+
+def orchard():
+    """A few meshes in thousands of places: trees in a hierarchy of nodes, grass as instances of one node each."""
+    meshes = {
+        "ground": box(40, 0.2, 40),
+        "trunk": lathe([(0, 0), (0.3, 0), (0.16, 0.4), (0.13, 1.5), (0.2, 1.9), (0, 2.1)], 12),
+        "crown": sphere(1.1, 8, 12),
+        "apple": sphere(0.09, 4, 6),
+        "post": box(0.12, 1.1, 0.12),
+        "rail": box(3.2, 0.09, 0.05),
+        "grass": tuft(9),
+    }
+
+    def turn(angle):
+        return [0, round(math.sin(angle / 2), 9), 0, round(math.cos(angle / 2), 9)]
+
+    def tree(number):
+        apples = [dict(name="apple", mesh="apple", translation=[1.1 * math.cos(2.4 * i) * math.sin(0.7 + 0.2 * i),
+                                                                2.6 - 0.2 * i, 1.1 * math.sin(2.4 * i) * math.sin(0.7 + 0.2 * i)])
+                  for i in range(5)]
+        crown = [dict(name="crown", mesh="crown", translation=[x, y, z], scale=[s, 0.8 * s, s])
+                 for x, y, z, s in ((0, 2.5, 0, 1), (0.6, 2.1, 0.3, 0.7), (-0.5, 2.2, 0.4, 0.65), (0.1, 2.1, -0.6, 0.7))]
+        # Every other tree is the mirror image of its neighbours.
+        size = 0.8 + 0.07 * (number * 5 % 7)
+        return dict(name="tree", rotation=turn(1.3 * number), scale=[size if number % 2 else -size, size * (1 + 0.1 * (number % 3)), size],
+                    children=[dict(name="trunk", mesh="trunk"), *crown, *apples])
+
+    nodes = [dict(name="ground", mesh="ground", translation=[0, -0.2, 0])]
+    for row in range(6):
+        children = []
+        for i in range(6):
+            standing = tree(6 * row + i)
+            standing["translation"] = [5.4 * i - 13.5, 0, 0.5 * (i % 2)]
+            children.append(standing)
+        nodes.append(dict(name="row %d" % row, translation=[0, 0, 5.4 * row - 13.5], children=children))
+    for side in range(4):
+        fence = [dict(name="post", mesh="post", translation=[3.2 * i - 17.6, 0, 17.6]) for i in range(11)]
+        fence += [dict(name="rail", mesh="rail", translation=[3.2 * i - 16, y, 17.6]) for i in range(11) for y in (0.45, 0.9)]
+        nodes.append(dict(name="fence", rotation=turn(math.pi * side / 2), children=fence))
+    # The steps of two golden ratios spread points evenly over a square.
+    places = []
+    for i in range(900):
+        x, z = 36 * (i * 0.7548776662 % 1) - 18, 36 * (i * 0.5698402910 % 1) - 18
+        size = 0.7 + 0.06 * (i * 7 % 11)
+        places.append(([x, 0, z], turn(2.1 * i), [size, size * (0.8 + 0.1 * (i % 5)), size]))
+    nodes.append(dict(name="grass", mesh="grass", instances=places))
+    return meshes, nodes
+
+
 def write_glb(path, meshes, nodes):
     binary = bytearray()
     document = dict(asset=dict(version="2.0", generator="make_scenes.py"), scene=0, scenes=[dict(nodes=[])], nodes=[], meshes=[],
                     accessors=[], bufferViews=[])
 
     def view(data, target):
-        document["bufferViews"].append(dict(buffer=0, byteOffset=len(binary), byteLength=len(data), target=target))
+        document["bufferViews"].append(dict(buffer=0, byteOffset=len(binary), byteLength=len(data)))
+        if target is not None:
+            document["bufferViews"][-1]["target"] = target
         binary.extend(data + bytes(-len(data) % 4))
         return len(document["bufferViews"]) - 1
 
@@ -200,6 +264,16 @@ def write_glb(path, meshes, nodes):
         result = {key: value for key, value in node.items() if key in ("name", "translation", "rotation", "scale")}
         if "mesh" in node:
             result["mesh"] = numbers[node["mesh"]]
+        if "instances" in node:
+            attributes = {}
+            for column, (key, size) in enumerate((("TRANSLATION", 3), ("ROTATION", 4), ("SCALE", 3))):
+                numbers_of = [[round(c, 5) + 0.0 for c in place[column]] for place in node["instances"]]
+                data = b"".join(struct.pack("<%df" % size, *n) for n in numbers_of)
+                document["accessors"].append(dict(bufferView=view(data, None), componentType=5126, count=len(numbers_of),
+                                                  type="VEC%d" % size))
+                attributes[key] = len(document["accessors"]) - 1
+            result["extensions"] = dict(EXT_mesh_gpu_instancing=dict(attributes=attributes))
+            document["extensionsUsed"] = document["extensionsRequired"] = ["EXT_mesh_gpu_instancing"]
         if "translation" in result:
             result["translation"] = [round(c, 5) + 0.0 for c in result["translation"]]
         document["nodes"].append(result)
@@ -268,6 +342,7 @@ def write_gear_stl(path, teeth=20):
 
 def main():
     write_glb(os.path.join(HERE, "courtyard.glb"), *courtyard())
+    write_glb(os.path.join(HERE, "orchard.glb"), *orchard())
     write_ply(os.path.join(HERE, "torus.ply"), torus(1.0, 0.4, 96, 48))
     write_table_obj(os.path.join(HERE, "table.obj"))
     write_gear_stl(os.path.join(HERE, "gear.stl"))

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "build/instanced.h"
 #include "build/median.h"
 #include "common/shuffled_tree.h"
 #include "file/bvhx_file.h"
@@ -113,6 +114,41 @@ inline BvhxFile inTwoLevels(BvhxFile file, TlasForm tlas, BlasForm blas, uint32_
     return inForm(std::move(file), "two-level", options);
 }
 
+/// The two triangles as a mesh in two places, the second stretched and mirrored.
+inline BvhxFile twoPlaces() {
+    BvhxFile file = twoTriangles();
+    Scene& scene = file.scene;
+    scene.meshes = {{.geometryCount = 1}};
+    scene.instances = {{kIdentityAffine, 0, 0, 0}, {{2, 0, 0, 3, 0, -1, 0, 0, 0, 0, 1, 0.5f}, 0, 0, 1}};
+    numberInstances(scene);
+    EncodeOptions options;
+    options.tlasForm = TlasForm::aabb;
+    options.blasForm = BlasForm::aabb;
+    const InstancedBvh trees =
+        buildInstanced(scene, choose(builders(), "builder", "median"), {.costs = {}, .maxLeafSize = 1});
+    file.bvh = TwoLevelForm::encodeInstances(scene, trees, options);
+    return file;
+}
+
+/// The grid in two meshes and five places, BLASes in the ssh form; numbers of geometries have gaps.
+inline BvhxFile gridPlaces() {
+    BvhxFile file = grid();
+    Scene& scene = file.scene;
+    scene.meshes = {{.geometryCount = 2}, {.geometryCount = 1}};
+    scene.instances = {{kIdentityAffine, 0, 0, 0},
+                       {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 2}, 1, 0, 2},
+                       {{0, -1, 0, 4, 1, 0, 0, 0, 0, 0, 0.5f, 0}, 0, 0, 7},
+                       {{1, 0.25f, 0, 0, 0, 1, 0, 5, 0, 0, 2, 1}, 1, 0, 9},
+                       {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 10}};
+    numberInstances(scene);
+    EncodeOptions options;
+    options.tlasForm = TlasForm::quantized;
+    options.blasForm = BlasForm::ssh;
+    const InstancedBvh trees = buildInstanced(scene, choose(builders(), "builder", "median"), {});
+    file.bvh = TwoLevelForm::encodeInstances(scene, trees, options);
+    return file;
+}
+
 inline std::vector<GoldenFile> goldenFiles() {
     return {
         {"two_triangles", twoTriangles(), {}},
@@ -140,6 +176,8 @@ inline std::vector<GoldenFile> goldenFiles() {
         {"grid_quantized_over_ssh", inTwoLevels(grid(), TlasForm::quantized, BlasForm::ssh, 9), {}},
         {"grid_aabb_over_mvh", inTwoLevels(grid(), TlasForm::aabb, BlasForm::mvh, 40), {}},
         {"grid_aabb_over_aabb", inTwoLevels(grid(), TlasForm::aabb, BlasForm::aabb, 9), {}},
+        {"two_triangles_instances", twoPlaces(), {}},
+        {"grid_instances_zstd", gridPlaces(), {.codec = "zstd"}},
         {"one_leaf", oneLeaf(), {}},
         {"split_triangle", splitTriangle(), {}}};
 }

@@ -67,7 +67,8 @@ TEST(Golden, workedBytesOfThePagesAreTrue) {
                                      {"quantized", "_quantized"},
                                      {"ssh", "_ssh"},
                                      {"mvh", "_mvh"},
-                                     {"two-level", "_two_level"}}) {
+                                     {"two-level", "_two_level"},
+                                     {"instances", "_instances"}}) {
         const std::string file = fileText("tests/golden/v1/two_triangles" + form + ".bvhx");
         std::istringstream text(fileText("format-spec/" + page + ".md"));
         int quoted = 0;

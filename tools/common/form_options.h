@@ -69,9 +69,20 @@ class TwoLevelOptions {
             return;
         }
         take(tlasForm_, options.tlasForm);
+        wasBlasFormGiven_ = !blasForm_.empty();
         take(blasForm_, options.blasForm);
+        wasSizeGiven_ = blasSize_ != 0;
         if (blasSize_ == 0) blasSize_ = options.blasSize;
         options.blasSize = blasSize_;
+    }
+
+    /// Whether a size to cut by was given.
+    bool cuts() const { return wasSizeGiven_; }
+    /// Chooses BLASes for the meshes of instances, which the default cannot hold, where none were asked for.
+    void chooseForInstances(EncodeOptions& options) {
+        if (wasBlasFormGiven_) return;
+        options.blasForm = BlasForm::ssh;
+        blasForm_ = levelForms<BlasForm>()[size_t(BlasForm::ssh)];
     }
 
   private:
@@ -91,6 +102,7 @@ class TwoLevelOptions {
 
     std::string tlasForm_, blasForm_;
     uint32_t blasSize_ = 0;
+    bool wasSizeGiven_ = false, wasBlasFormGiven_ = false;
 };
 
 /// Options of the mvh form: empty or 0 where not given.

@@ -5,6 +5,7 @@
 #include "common/input.h"
 #include "common/log.h"
 #include "core/parallel.h"
+#include "stats/tree_stats.h"
 
 namespace bvhio {
 
@@ -25,7 +26,7 @@ Pass::Pass(CommandLine& line, const std::string& inputName, const std::string& i
 BvhxFile Pass::read(const std::string& path) {
     stages_->begin("read");
     BvhxFile file = readBvhx(path);
-    sahBefore_ = sahCost(file.bvh, file.costs);
+    sahBefore_ = sahCost(file.scene, file.bvh, file.costs);
     return file;
 }
 
@@ -42,7 +43,7 @@ void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string
 
     Report report = {{"tool", line_.tool()}, {"version", std::string(toolsVersion())}};
     report["sah_before"] = sahBefore_ ? Report(*sahBefore_) : Report();
-    report["sah_after"] = sahCost(refitted ? *refitted : file.bvh, file.costs);
+    report["sah_after"] = sahCost(file.scene, refitted ? *refitted : file.bvh, file.costs);
     report["seconds"] = stages_->seconds(work);
     for (const auto& [stage, seconds] : stages_->stages()) report["stage_seconds"][stage] = seconds;
     report["threads"] = threadCount();
@@ -53,8 +54,21 @@ void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string
     report_->commit();
 }
 
-double sahCost(const EncodedBvh& bvh, const SahCosts& costs) {
-    return sahCost(decode(bvh), costs);
+EncodeOptions exactLevels() {
+    EncodeOptions options;
+    options.tlasForm = TlasForm::aabb;
+    options.blasForm = BlasForm::aabb;
+    return options;
+}
+
+void changeTrees(BvhxFile& file, const TreeFunction& function) {
+    if (!file.scene.isInstanced()) {
+        file.bvh = AabbForm(function(file.scene, decode(file.bvh), false));
+        return;
+    }
+    const InstancedBvh trees = std::get<TwoLevelForm>(file.bvh).decodeInstances(file.scene);
+    file.bvh =
+        TwoLevelForm::encodeInstances(file.scene, mapTrees(file.scene, trees, function), exactLevels());
 }
 
 uint64_t peakBytes() {

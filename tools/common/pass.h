@@ -1,6 +1,7 @@
 // The frame of a tool that writes a container: its options, its stages, its provenance and its report.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -41,8 +42,14 @@ class Pass {
     std::optional<Report> options_;
 };
 
-/// The cost of the tree as its form stores it.
-double sahCost(const EncodedBvh& bvh, const SahCosts& costs);
+/// Both levels of an instanced scene as they are built: in the aabb form.
+EncodeOptions exactLevels();
+
+/// Puts what the function makes of the container's tree in its place, in the aabb form; in an instanced scene
+/// that of each tree, `isTop` for the one over the instances, whose scene has a triangle in each instance's
+/// box.
+using TreeFunction = std::function<Bvh(const Scene&, const Bvh&, bool isTop)>;
+void changeTrees(BvhxFile& file, const TreeFunction& function);
 
 /// The most memory the process has had, in bytes.
 uint64_t peakBytes();

@@ -62,9 +62,20 @@ inline void expectSameContent(const BvhxFile& a, const BvhxFile& b) {
     expectSameArray<uint32_t>(a.scene.sourcePrimitives, b.scene.sourcePrimitives, "source primitives");
     EXPECT_EQ(a.scene.geometries, b.scene.geometries);
     EXPECT_EQ(formNameOf(a.bvh), formNameOf(b.bvh));
-    const Bvh treeA = decode(a.bvh), treeB = decode(b.bvh);
-    expectSameArray<Node>(treeA.nodes, treeB.nodes, "nodes");
-    expectSameArray<uint32_t>(treeA.primitives, treeB.primitives, "primitives");
+    EXPECT_EQ(a.scene.meshes, b.scene.meshes);
+    EXPECT_EQ(a.scene.instances, b.scene.instances);
+    const auto treesOf = [](const BvhxFile& file) {
+        if (!isInstanced(file.bvh)) return std::vector<Bvh>{decode(file.bvh)};
+        InstancedBvh trees = std::get<TwoLevelForm>(file.bvh).decodeInstances(file.scene);
+        trees.meshes.push_back(std::move(trees.top));
+        return std::move(trees.meshes);
+    };
+    const std::vector<Bvh> treesA = treesOf(a), treesB = treesOf(b);
+    ASSERT_EQ(treesA.size(), treesB.size());
+    for (size_t i = 0; i < treesA.size(); ++i) {
+        expectSameArray<Node>(treesA[i].nodes, treesB[i].nodes, "nodes");
+        expectSameArray<uint32_t>(treesA[i].primitives, treesB[i].primitives, "primitives");
+    }
     EXPECT_EQ(a.costs, b.costs);
     EXPECT_EQ(a.provenance, b.provenance);
     ASSERT_EQ(a.unknownChunks.size(), b.unknownChunks.size());

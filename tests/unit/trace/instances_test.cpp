@@ -3,6 +3,7 @@
 
 #include "common/instanced_scenes.h"
 #include "trace/hit_file.h"
+#include "trace/queries.h"
 #include "trace/surface_point.h"
 #include "trace/trace.h"
 
@@ -63,6 +64,17 @@ TEST(Instances, surfacePointsLieOnTheViewersSide) {
             EXPECT_FALSE(below.isMiss());
         }
     }
+}
+
+// The box of an instance is part of what a hit is: traversal may find triangles that lie before it.
+TEST(Instances, hitsBeforeTheInstancesBoxDoNotCount) {
+    const PreparedRay ray(Ray{{0, 0, 0}, 0, {0, 0, 1}});
+    ClosestHit query(ray);
+    InstanceQuery<ClosestHit> within(query, 2, 10);
+    within.offer({1.5f, 0, 0, 3});
+    EXPECT_TRUE(query.result().isMiss());
+    within.offer({2, 0, 0, 3});
+    EXPECT_EQ(query.result().primitive, 13u);
 }
 
 // Ids count through instances; records give each triangle its geometry as the flattened scene has it.

@@ -1,4 +1,6 @@
 // bvh-relayout: orders a tree's nodes in memory; its cost stays.
+#include <algorithm>
+
 #include "common/pass.h"
 #include "common/run_tool.h"
 #include "relayout/layouts.h"
@@ -10,18 +12,76 @@ namespace {
 const ToolInfo kTool = {
     "bvh-relayout",
     "Orders the nodes of a container's tree, and its leaves' primitives, in memory.",
-    "  bvh-relayout scene.bvhx --layout dfs -o scene.bvhx\n",
+    "  bvh-relayout scene.bvhx --layout odfs -o scene.bvhx\n",
+};
+
+/// The options of layouts: below their ranges where not given.
+class LayoutChoice {
+  public:
+    explicit LayoutChoice(CommandLine& line) : line_(line) {
+        line.choice("--layout", name_, namedValues(layouts()), "the order of the nodes");
+        line.number("--line-size", lineSize_, 16, 1u << 20, "bytes of a cache line");
+        line.number("--record-bytes", recordBytes_, 1, 1u << 10,
+                    "bytes that a pair of siblings takes in the form to come");
+        line.number("--threshold", threshold_, 0, 1,
+                    "the least probability at which a treelet goes on to a child");
+        line.number("--treelet-size", treeletSize_, 1, UINT32_MAX, "most pairs of siblings in a treelet");
+        line.number("--pointer-bits", pointerBits_, 2, 20, "bits of a reference within a cluster");
+    }
+
+    /// The chosen layout, with what was given added to the options, and the rest filled in. Throws
+    /// Error{usage} for what it has no use for.
+    const Layout& choose(LayoutOptions& options) {
+        const Layout& layout = bvhio::choose(layouts(), "layout", name_);
+        refuseUseless(layout);
+        take(layout, kUsesLines, lineSize_, options.lineSize, 0u);
+        take(layout, kUsesLines, recordBytes_, options.recordBytes, 0u);
+        take(layout, kUsesThreshold, threshold_, options.threshold, -1.0f);
+        take(layout, kUsesTreeletSize, treeletSize_, options.treeletSize, 0u);
+        take(layout, kUsesPointerBits, pointerBits_, options.pointerBits, 0u);
+        return layout;
+    }
+
+  private:
+    void refuseUseless(const Layout& layout) const {
+        static constexpr std::pair<std::string_view, uint32_t> kUses[] = {
+            {"--line-size", kUsesLines},
+            {"--record-bytes", kUsesLines},
+            {"--threshold", kUsesThreshold},
+            {"--treelet-size", kUsesTreeletSize},
+            {"--pointer-bits", kUsesPointerBits}};
+        const std::vector<std::string> given = line_.given();
+        for (const auto& [name, uses] : kUses)
+            if ((layout.function.uses & uses) == 0 &&
+                std::find(given.begin(), given.end(), name) != given.end())
+                throw Error(ErrorKind::usage, std::string(name) + ": layout " + std::string(layout.name) +
+                                                  " has no use for it: leave it out");
+    }
+
+    template <class T>
+    static void take(const Layout& layout, uint32_t use, T& given, T& option, T none) {
+        if ((layout.function.uses & use) == 0) return;
+        if (given == none) given = option;
+        option = given;
+    }
+
+    CommandLine& line_;
+    std::string name_{layouts()[0].name};
+    uint32_t lineSize_ = 0, recordBytes_ = 0, treeletSize_ = 0, pointerBits_ = 0;
+    float threshold_ = -1;
 };
 
 ExitCode relayout(CommandLine& line) {
-    std::string layout(layouts()[0].name);
-    line.choice("--layout", layout, namedValues(layouts()), "the order of the nodes");
+    LayoutChoice choice(line);
     Pass pass(line, "INPUT", "the container; - or nothing: standard input");
+    LayoutOptions options;
+    const Layout& layout = choice.choose(options);
 
     BvhxFile file = pass.read();
     pass.stages().begin("relayout");
-    const auto order = choose(layouts(), "layout", layout).function;
-    changeTrees(file, [&](const Scene&, const Bvh& bvh, bool) { return applyNodeOrder(bvh, order(bvh)); });
+    changeTrees(file, [&](const Scene&, const Bvh& bvh, bool) {
+        return applyNodeOrder(bvh, layout.function(bvh, options).order);
+    });
     dropChunksThatDoNotSurvive(file, Change::reordered);
     pass.finish(file, {}, "relayout");
     return ExitCode::done;

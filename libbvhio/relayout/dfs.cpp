@@ -8,7 +8,7 @@
 
 namespace bvhio {
 
-NodeOrder orderDepthFirst(const Bvh& bvh) {
+LayoutResult layoutDfs(const Bvh& bvh, const LayoutOptions&) {
     NodeOrder order;
     order.reserve(bvh.nodes.size() / 2 - 1);
     std::array<uint32_t, kMaxDepth + 2> stack{0};  // nodes whose subtrees are still to come
@@ -20,7 +20,7 @@ NodeOrder orderDepthFirst(const Bvh& bvh) {
         stack[waiting++] = node.right();
         stack[waiting++] = node.left();
     }
-    return order;
+    return {std::move(order)};
 }
 
 }  // namespace bvhio

@@ -1,10 +1,10 @@
 // Depth-first order.
 #pragma once
 
-#include "relayout/node_order.h"
+#include "relayout/layouts.h"
 
 namespace bvhio {
 
-NodeOrder orderDepthFirst(const Bvh& bvh);
+LayoutResult layoutDfs(const Bvh& bvh, const LayoutOptions&);
 
 }  // namespace bvhio

@@ -3,12 +3,49 @@
 
 #include "core/choice.h"
 #include "relayout/node_order.h"
+#include "relayout/pair_weights.h"
 
 namespace bvhio {
 
-/// A layout's order depends on the tree alone: not on the order its nodes had before, so applying a layout
-/// twice is applying it once.
-using Layout = Choice<NodeOrder (*)(const Bvh&)>;
+/// The options that a layout may have a use for, as bits.
+enum LayoutUses : uint32_t {
+    kUsesNothing = 0,
+    kUsesWeights = 1,
+    kUsesLines = 2,  // lineSize and recordBytes
+    kUsesThreshold = 4,
+    kUsesTreeletSize = 8,
+    kUsesPointerBits = 16,
+};
+
+struct LayoutOptions {
+    uint32_t lineSize = 64;  // bytes of a cache line
+    uint32_t recordBytes =
+        16;  // bytes of a pair's record in the form that the order is for: quantized has 16
+    float threshold =
+        -1;  // treelets go on to a child of at least this probability; below 0: the layout's own
+    uint32_t treeletSize = 0;  // most pairs of a treelet; 0: the layout's own
+    uint32_t pointerBits = 8;  // of a reference within an address cluster
+    /// How often each pair is fetched, by half the index of its left node; any unit. None: by areas.
+    PairWeights weights{};
+
+    uint32_t recordsPerLine() const { return lineSize > recordBytes ? lineSize / recordBytes : 1; }
+};
+
+struct LayoutResult {
+    NodeOrder order;
+};
+
+/// What a layout does, and the options that it has a use for.
+struct LayoutMethod {
+    LayoutResult (*run)(const Bvh&, const LayoutOptions&);
+    uint32_t uses;
+
+    LayoutResult operator()(const Bvh& bvh, const LayoutOptions& options) const { return run(bvh, options); }
+};
+
+/// A layout's order depends on the tree, its weights and the options alone: not on the order its nodes had
+/// before, so applying a layout twice is applying it once.
+using Layout = Choice<LayoutMethod>;
 
 /// All layouts, the default first.
 std::span<const Layout> layouts();

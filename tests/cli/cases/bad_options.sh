@@ -17,6 +17,7 @@ code bvh-build cube.obj -j -1
 code bvh-build cube.obj -j many
 code bvh-restructure cube.bvhx --method best
 code bvh-relayout cube.bvhx --layout dsf
+code bvh-relayout cube.bvhx --layout bfs --threshold 0.5
 code bvh-compress cube.bvhx --codec zsdt
 code bvh-compress cube.bvhx --geometry rew
 code bvh-compress cube.bvhx --form ssh --codec topology

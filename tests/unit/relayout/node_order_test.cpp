@@ -65,10 +65,11 @@ TEST(NodeOrder, keepsATreeOfOneLeaf) {
     EXPECT_EQ(primitivesOf(moved), (std::vector<uint32_t>{1, 0}));
 }
 
-TEST(DepthFirst, putsALeftSubtreeBeforeTheRightOne) {
-    EXPECT_EQ(orderDepthFirst(breadthFirstTree()), (NodeOrder{2, 4, 6}));
+TEST(DepthFirst, doesNotDependOnTheOldOrder) {
+    EXPECT_EQ(layoutDfs(breadthFirstTree(), {}).order, (NodeOrder{2, 4, 6}));
     const Bvh rightFirst = applyNodeOrder(breadthFirstTree(), {2, 6, 4});
-    EXPECT_EQ(orderDepthFirst(rightFirst), (NodeOrder{2, 6, 4}));  // old indices: the left subtree is at 6
+    // Old indices: the left subtree is at 6.
+    EXPECT_EQ(layoutDfs(rightFirst, {}).order, (NodeOrder{2, 6, 4}));
 }
 
 // The deepest tree allowed must not overflow the stacks: a chain whose left children go on, and one whose
@@ -87,7 +88,7 @@ TEST(DepthFirst, followsTheDeepestChains) {
         std::vector<uint32_t> primitives(primitive);
         for (uint32_t i = 0; i < primitive; ++i) primitives[i] = i;
         const Bvh chain{std::move(nodes), std::move(primitives)};
-        const Bvh moved = applyNodeOrder(chain, orderDepthFirst(chain));
+        const Bvh moved = applyNodeOrder(chain, layoutDfs(chain, {}).order);
         std::vector<uint32_t> sorted = primitivesOf(moved);
         EXPECT_EQ(sorted.front(), goesLeft ? kMaxDepth : 0);  // to the left, the deepest leaf comes first
         std::sort(sorted.begin(), sorted.end());

@@ -1,0 +1,18 @@
+// Breadth-first order: the pairs of each level from left to right, level after level. The upper levels, which
+// many rays read, are together; deeper down a pair lies far from its parent.
+
+#include "relayout/bfs.h"
+
+namespace bvhio {
+
+LayoutResult layoutBfs(const Bvh& bvh, const LayoutOptions&) {
+    NodeOrder order;
+    order.reserve(bvh.nodes.size() / 2 - 1);
+    if (!bvh.nodes[0].isLeaf()) order.push_back(bvh.nodes[0].left());
+    for (size_t next = 0; next < order.size(); ++next)
+        for (const uint32_t node : {order[next], order[next] + 1})
+            if (!bvh.nodes[node].isLeaf()) order.push_back(bvh.nodes[node].left());
+    return {std::move(order)};
+}
+
+}  // namespace bvhio

@@ -1,0 +1,10 @@
+// Depth-first order, the likelier subtree first.
+#pragma once
+
+#include "relayout/layouts.h"
+
+namespace bvhio {
+
+LayoutResult layoutOdfs(const Bvh& bvh, const LayoutOptions& options);
+
+}  // namespace bvhio

@@ -1,0 +1,128 @@
+// Every layout, over trees of awkward scenes: it moves pairs of siblings, and nothing else.
+#include "relayout/layouts.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "build/builders.h"
+#include "common/expect_valid.h"
+#include "common/shuffled_tree.h"
+#include "common/test_scenes.h"
+#include "core/sah_cost.h"
+#include "stats/hashes.h"
+
+namespace bvhio {
+namespace {
+
+struct Case {
+    const Layout* layout;
+    const test::TestScene* scene;
+};
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.layout->name << " " << c.scene->name;
+}
+
+std::vector<Case> allCases() {
+    std::vector<Case> cases;
+    for (const Layout& layout : layouts())
+        for (const test::TestScene& scene : test::testScenes()) cases.push_back({&layout, &scene});
+    return cases;
+}
+
+/// Weights that areas would never give: random, but never above the parent's.
+PairWeights randomWeights(const Bvh& bvh, uint64_t seed) {
+    Random random(seed);
+    PairWeights weights(bvh.nodes.size() / 2, 1000);
+    for (size_t i = 0; i < bvh.nodes.size(); ++i)
+        if (i != 1 && !bvh.nodes[i].isLeaf())
+            weights[bvh.nodes[i].left() / 2] = double(random.below(uint32_t(weights[i / 2]) + 1));
+    return weights;
+}
+
+/// The weights of the same pairs in another order, known by their boxes' place in the tree: both trees are
+/// walked side by side.
+PairWeights weightsIn(const Bvh& to, const Bvh& from, const PairWeights& weights) {
+    PairWeights moved(weights.size(), weights[0]);
+    std::vector<std::pair<uint32_t, uint32_t>> stack{{0, 0}};
+    while (!stack.empty()) {
+        const auto [a, b] = stack.back();
+        stack.pop_back();
+        if (to.nodes[a].isLeaf()) continue;
+        moved[to.nodes[a].left() / 2] = weights[from.nodes[b].left() / 2];
+        for (const uint32_t side : {0u, 1u})
+            stack.emplace_back(to.nodes[a].first + side, from.nodes[b].first + side);
+    }
+    return moved;
+}
+
+std::vector<LayoutOptions> settings() {
+    std::vector<LayoutOptions> all(1);
+    all.push_back({.lineSize = 64, .recordBytes = 8, .threshold = 0, .treeletSize = 3, .pointerBits = 3});
+    all.push_back({.lineSize = 128, .recordBytes = 48, .threshold = 1, .treeletSize = 1, .pointerBits = 4});
+    all.push_back({.lineSize = 16, .recordBytes = 64, .threshold = 0.5f, .treeletSize = 1000});
+    return all;
+}
+
+class EveryLayout : public testing::TestWithParam<Case> {};
+
+// A pair left out, listed twice, or put before its parent makes a file that readers refuse.
+TEST_P(EveryLayout, movesPairsBehindTheirParentsAndChangesNothingElse) {
+    const auto& [layout, testScene] = GetParam();
+    const Scene scene = testScene->make();
+    for (const std::string_view builder : {"binned", "spatial"}) {
+        const Bvh before = choose(builders(), "builder", builder).function(scene, {});
+        for (LayoutOptions options : settings())
+            for (const uint64_t seed : {0, 1, 2}) {
+                if (seed > 0) options.weights = randomWeights(before, seed);
+                SCOPED_TRACE(testing::Message() << builder << " lines " << options.lineSize << " records "
+                                                << options.recordBytes << " weights " << seed);
+                const LayoutResult result = layout->function(before, options);
+                std::vector<uint32_t> place(before.nodes.size() / 2, 0);
+                ASSERT_EQ(result.order.size(), place.size() - 1);
+                for (uint32_t i = 0; i < result.order.size(); ++i) {
+                    ASSERT_LT(result.order[i], before.nodes.size());
+                    ASSERT_EQ(result.order[i] % 2, 0u);
+                    ASSERT_EQ(std::exchange(place[result.order[i] / 2], i + 1), 0u) << "listed twice";
+                }
+                for (uint32_t i = 0; i < before.nodes.size(); ++i) {
+                    if (i == 1 || before.nodes[i].isLeaf()) continue;
+                    ASSERT_LT(place[i / 2], place[before.nodes[i].left() / 2]) << "before its parent";
+                }
+
+                const Bvh after = applyNodeOrder(before, result.order);
+                ASSERT_NO_FATAL_FAILURE(test::expectValid(scene, after, kMaxLeafSize));
+                EXPECT_EQ(topologyHash(after), topologyHash(before));
+                EXPECT_EQ(boundsHash(after), boundsHash(before));
+                EXPECT_NEAR(sahCost(after, {}), sahCost(before, {}), 1e-9 * sahCost(before, {}));
+            }
+    }
+}
+
+// Otherwise the same tree would come out in another order each time a pipeline is run over its own output.
+TEST_P(EveryLayout, givesOneOrderWhateverTheOldOne) {
+    const auto& [layout, testScene] = GetParam();
+    const Scene scene = testScene->make();
+    const Bvh before = builders().front().function(scene, {.costs = {}, .maxLeafSize = 2});
+    const Bvh shuffled = test::shuffledTree(before, 5, false);
+    for (LayoutOptions options : settings())
+        for (const uint64_t seed : {0, 1}) {
+            if (seed > 0) options.weights = randomWeights(before, seed);
+            const Bvh once = applyNodeOrder(before, layout->function(before, options).order);
+            LayoutOptions again = options, fromShuffled = options;
+            if (seed > 0) {
+                again.weights = weightsIn(once, before, options.weights);
+                fromShuffled.weights = weightsIn(shuffled, before, options.weights);
+            }
+            EXPECT_TRUE(test::sameBytes(once, applyNodeOrder(once, layout->function(once, again).order)));
+            const Bvh other = applyNodeOrder(shuffled, layout->function(shuffled, fromShuffled).order);
+            EXPECT_TRUE(test::sameBytes(once, other));
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(, EveryLayout, testing::ValuesIn(allCases()), [](const auto& test) {
+    return std::string(test.param.layout->name) + "_" + test.param.scene->name;
+});
+
+}  // namespace
+}  // namespace bvhio

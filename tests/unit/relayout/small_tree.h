@@ -1,0 +1,30 @@
+// Trees given by which pair is below which node.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/bvh.h"
+
+namespace bvhio::test {
+
+/// Each entry is a node and the left node of the pair below it; all other nodes are leaves of one primitive.
+/// Boxes are all the same.
+inline Bvh treeOfPairs(const std::vector<std::pair<uint32_t, uint32_t>>& pairs) {
+    AlignedVector<Node> nodes(2 * pairs.size() + 2);
+    std::vector<uint32_t> primitives;
+    for (uint32_t i = 0; i < nodes.size(); ++i) nodes[i] = {{{0, 0, 0}, {1, 1, 1}}, 0, 1};
+    nodes[1] = {};
+    for (const auto& [node, left] : pairs) {
+        nodes[node].first = left;
+        nodes[node].primitiveCount = 0;
+    }
+    for (Node& node : nodes)
+        if (node.isLeaf()) {
+            node.first = uint32_t(primitives.size());
+            primitives.push_back(node.first);
+        }
+    return {std::move(nodes), std::move(primitives)};
+}
+
+}  // namespace bvhio::test

@@ -46,6 +46,13 @@ bool isGiven(const CommandLine& line, std::string_view name) {
     return std::find(given.begin(), given.end(), name) != given.end();
 }
 
+/// Whether the nodes are as bvh-build leaves them: all with full boxes.
+bool isPlain(const EncodedBvh& bvh) {
+    const EncodeOptions options = optionsOf(bvh);
+    return std::holds_alternative<AabbForm>(bvh) ||
+           (isInstanced(bvh) && options.tlasForm == TlasForm::aabb && options.blasForm == BlasForm::aabb);
+}
+
 /// The codecs of chunks, and one that squeezes the nodes of the aabb form as well.
 std::vector<NamedValue> codecNames() {
     std::vector<NamedValue> names = namedValues(codecs());
@@ -91,9 +98,8 @@ void encodeInstances(BvhxFile& file, std::string_view form, const EncodeOptions&
 }
 
 ExitCode compress(CommandLine& line) {
-    std::string form(forms()[0].name), codec = "zstd", geometry(kGeometries[0].name),
-                                       triangleOrder(kTriangleOrders[0].name),
-                                       vertexOrder(kVertexOrders[0].name);
+    std::string form, codec = "zstd", geometry(kGeometries[0].name), triangleOrder(kTriangleOrders[0].name),
+                      vertexOrder(kVertexOrders[0].name);
     uint32_t level = 0, positionBits = 16;
     line.choice("--form", form, namedValues(forms()), "how nodes are stored");
     QuantizedOptions quantized(line);
@@ -113,19 +119,28 @@ ExitCode compress(CommandLine& line) {
     search.prepare(
         line, {"--codec", "--level", "--geometry", "--position-bits", "--triangle-order", "--vertex-order"});
 
-    const auto givenEncoding = [&] {
-        EncodeOptions options;
+    const auto givenEncoding = [&](EncodeOptions options = {}) {
         twoLevel.addTo(options, form);
         quantized.addTo(options, form);
         mvh.addTo(options, form);
         return options;
     };
-    EncodeOptions encoding = givenEncoding();
     const bool topology = codec == "topology";
+    if (topology && form.empty()) form = AabbForm::kName;
     if (topology && (form != AabbForm::kName || search.choosesForm()))
         throw Error(ErrorKind::usage,
                     "--codec topology: only --form aabb has boxes that fit again: use --codec zstd");
+    EncodeOptions encoding;
+    if (!form.empty()) encoding = givenEncoding();
     BvhxFile file = pass.read();
+    // A compact form stays what it is, unless told otherwise.
+    const bool stays = form.empty() && !isPlain(file.bvh);
+    if (form.empty() && !search.choosesForm()) {
+        form = stays                   ? formNameOf(file.bvh)
+               : isInstanced(file.bvh) ? TwoLevelForm::kName
+                                       : QuantizedForm::kName;
+        encoding = givenEncoding(stays ? optionsOf(file.bvh) : EncodeOptions());
+    }
     Report extra = Report::object();
     if (search.isWanted()) {
         pass.stages().begin("search");
@@ -145,7 +160,7 @@ ExitCode compress(CommandLine& line) {
     pass.recordOptions(search.recordedOptions(line));
     pass.stages().begin("compress");
     if (file.scene.isInstanced()) {
-        twoLevel.chooseForInstances(encoding);
+        if (!stays) twoLevel.chooseForInstances(encoding);
         encodeInstances(file, form, encoding, twoLevel.cuts());
     } else if (formNameOf(file.bvh) != form || optionsOf(file.bvh) != encoding) {
         if (form == MvhForm::kName) logInfo("mvh builds a tree of its own from the triangles");

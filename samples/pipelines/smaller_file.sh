@@ -8,8 +8,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 bvh-build "$scene" -o "$work/plain.bvhx"
-bvh-compress "$work/plain.bvhx" --codec zstd -o "$work/zstd.bvhx"
-bvh-compress "$work/plain.bvhx" --codec zstd --geometry draco -o "$work/draco.bvhx"
+bvh-compress "$work/plain.bvhx" --form aabb --codec zstd -o "$work/zstd.bvhx"
+bvh-compress "$work/plain.bvhx" --form aabb --codec zstd --geometry draco -o "$work/draco.bvhx"
 for file in plain zstd draco; do
     printf '%-6s %10d bytes\n' $file "$(stat -c %s "$work/$file.bvhx")"
 done

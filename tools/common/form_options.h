@@ -125,6 +125,13 @@ class MvhOptions {
                                MvhForm::kName, form);
             return;
         }
+        if (options.mvhBuild == MvhBuild::given) {
+            // These encode another tree alike.
+            if (build_.empty() && leafSize_ == 0 && zeta_.empty()) return;
+            options.mvhBuild = MvhBuild::best;
+            options.zeta = options.zetaOfBoth = 0;
+            options.cutAxes = 0;
+        }
         if (build_.empty()) build_ = kBuilds[0].name;
         options.mvhBuild = build_ == kBuilds[0].name ? MvhBuild::best : MvhBuild::paper;
         if (leafSize_ == 0) leafSize_ = options.leafSize;

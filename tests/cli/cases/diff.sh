@@ -1,6 +1,6 @@
 # What sets two files apart: nothing, or the order, the topology, or the geometry.
 grid 4 | bvh-build -o grid.bvhx
-bvh-relayout grid.bvhx | bvh-compress -o same.bvhx
+bvh-relayout grid.bvhx | bvh-compress --form aabb -o same.bvhx
 grid 4 | bvh-build --builder median -o median.bvhx
 grid 5 | bvh-build -o larger.bvhx
 for other in same median larger; do

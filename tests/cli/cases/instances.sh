@@ -39,7 +39,7 @@ cat "$scene" | bvh-build --two-level | cmp - levels.bvhx
 # Other scenes are one mesh in one place.
 cube | bvh-build --two-level | bvh-trace --compare <(cube | bvh-build) --rays random --count 1000 --format json | json compare.differing
 # What needs one tree says so.
-code bvh-compress levels.bvhx -o no.bvhx
+code bvh-compress levels.bvhx --form aabb -o no.bvhx
 code bvh-compress levels.bvhx --form two-level --blas-form mvh -o no.bvhx
 code bvh-compress levels.bvhx --form two-level --blas-size 4 -o no.bvhx
 code bvh-compress levels.bvhx --form two-level --geometry draco -o no.bvhx

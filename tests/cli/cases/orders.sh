@@ -1,7 +1,7 @@
 # Triangles and vertices in another order are hit as before, by the same ids; a single geometry's leaf order is then 0, 1, 2, ...
 cp "$ROOT/samples/scenes/torus.ply" .
 bvh-build torus.ply -o torus.bvhx
-bvh-compress torus.bvhx --codec none --triangle-order leaf --vertex-order use -o leaf.bvhx
+bvh-compress torus.bvhx --form aabb --codec none --triangle-order leaf --vertex-order use -o leaf.bvhx
 code bvh-trace torus.bvhx --rays random --count 5000 --compare leaf.bvhx | tail -n 1
 code bvh-stats leaf.bvhx --check
 bvh-compress leaf.bvhx --codec topology -o small.bvhx

@@ -12,7 +12,7 @@ namespace {
 const ToolInfo kTool = {
     "bvh-relayout",
     "Orders the nodes of a container's tree, and its leaves' primitives, in memory.",
-    "  bvh-relayout scene.bvhx --layout odfs -o scene.bvhx\n",
+    "  bvh-relayout scene.bvhx --layout pack | bvh-compress --form quantized -o compact.bvhx\n",
 };
 
 /// The options of layouts: below their ranges where not given.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "build/binned.h"
+#include "common/test_scenes.h"
 #include "unit/relayout/small_tree.h"
 
 namespace bvhio {
@@ -35,6 +37,45 @@ TEST(Layouts, bfsGoesLevelByLevel) {
     EXPECT_EQ(orderOf("bfs", sixPairs()), (NodeOrder{2, 4, 6, 8, 10, 12}));
 }
 
+TEST(Layouts, swstIsOdfs) {
+    EXPECT_EQ(orderOf("swst", sixPairs(), {.weights = kWeights}),
+              orderOf("odfs", sixPairs(), {.weights = kWeights}));
+}
+
+TEST(Layouts, vebPutsTheUpperHalfFirst) {
+    // Four levels: pair k, with its left node at 2k, has 2k and 2k + 1 below it.
+    std::vector<std::pair<uint32_t, uint32_t>> pairs{{0, 2}};
+    for (uint32_t node = 2; node < 16; ++node) pairs.emplace_back(node, 2 * node);
+    EXPECT_EQ(orderOf("veb", test::treeOfPairs(pairs)),
+              (NodeOrder{2, 4, 6, 8, 16, 18, 10, 20, 22, 12, 24, 26, 14, 28, 30}));
+}
+
+// A child below the threshold must root a treelet, not vanish; the likeliest of those follows at once.
+TEST(Layouts, tdfsFollowsLikelyChildrenDown) {
+    const LayoutOptions options{.threshold = 0.5f, .weights = kWeights};
+    EXPECT_EQ(orderOf("tdfs", sixPairs(), options), (NodeOrder{2, 6, 10, 4, 8, 12}));
+    // All children are likely enough, but two pairs fill a treelet.
+    const LayoutOptions ofTwo{.threshold = 0, .treeletSize = 2, .weights = {10, 10, 6, 7, 5, 4, 3}};
+    EXPECT_EQ(orderOf("tdfs", sixPairs(), ofTwo), (NodeOrder{2, 6, 4, 8, 10, 12}));
+}
+
+TEST(Layouts, tbfsGoesThroughTreeletsByLevel) {
+    const LayoutOptions options{.threshold = 0, .treeletSize = 3, .weights = kWeights};
+    EXPECT_EQ(orderOf("tbfs", sixPairs(), options), (NodeOrder{2, 6, 4, 10, 12, 8}));
+    const LayoutOptions aLine{.lineSize = 48, .recordBytes = 16, .threshold = 0, .weights = kWeights};
+    EXPECT_EQ(orderOf("tbfs", sixPairs(), aLine), (NodeOrder{2, 6, 4, 10, 12, 8}));
+}
+
+TEST(Layouts, colPutsTheLikeliestPartFirst) {
+    EXPECT_EQ(orderOf("col", sixPairs(), {.weights = kWeights}), (NodeOrder{2, 6, 10, 4, 8, 12}));
+}
+
+// 2 with 6 and 4 with 8 leave least to cross; 10 is alone, and 12, which is too, completes its line.
+TEST(Layouts, packFillsLinesWithConnectedPairs) {
+    const LayoutOptions options{.lineSize = 32, .recordBytes = 16, .weights = kWeights};
+    EXPECT_EQ(orderOf("pack", sixPairs(), options), (NodeOrder{2, 6, 10, 12, 4, 8}));
+}
+
 TEST(Layouts, orderNothingOfATreeOfOneLeaf) {
     for (const Layout& layout : layouts())
         EXPECT_TRUE(layout.function(test::treeOfPairs({}), {}).order.empty()) << layout.name;
@@ -53,6 +94,41 @@ TEST(Layouts, followTheDeepestChains) {
             EXPECT_TRUE(std::is_sorted(order.begin(), order.end())) << layout.name;
         }
     }
+}
+
+/// How many blocks of so many pairs a line through the root's box enters on average, by areas: crossings from
+/// one pair's block into another's.
+double crossings(const Bvh& bvh, const NodeOrder& order, uint32_t perBlock) {
+    const PairWeights weights = weightsByArea(bvh);
+    std::vector<uint32_t> place(bvh.nodes.size() / 2, 0);
+    for (uint32_t i = 0; i < order.size(); ++i) place[order[i] / 2] = i / perBlock;
+    double sum = 1;
+    for (size_t i = 2; i < bvh.nodes.size(); ++i) {
+        const uint32_t below = bvh.nodes[i].left() / 2;
+        if (!bvh.nodes[i].isLeaf() && place[below] != place[i / 2]) sum += weights[below];
+    }
+    return sum;
+}
+
+// What the orders are for: fewer lines and pages on the way down.
+TEST(Layouts, crossFewerLinesAndPagesThanDepthFirst) {
+    const Bvh bvh = buildBinned(test::sphereScene(80, 50), {.costs = {}, .maxLeafSize = 1});
+    const auto ratio = [&](std::string_view layout, const LayoutOptions& options, uint32_t perBlock) {
+        return crossings(bvh, orderOf(layout, bvh, options), perBlock) /
+               crossings(bvh, orderOf("dfs", bvh), perBlock);
+    };
+    for (const uint32_t bytes : {8u, 16u}) {
+        LayoutOptions options;
+        options.recordBytes = bytes;
+        SCOPED_TRACE(testing::Message() << bytes << " bytes");
+        for (const std::string_view layout : {"odfs", "tdfs", "tbfs"})
+            EXPECT_LE(ratio(layout, options, 64 / bytes), 0.99) << layout;
+        EXPECT_LE(ratio("pack", options, 64 / bytes), 0.75);
+    }
+    LayoutOptions aabb;
+    aabb.recordBytes = 64;
+    for (const std::string_view layout : {"veb", "col", "pack"})
+        EXPECT_LE(ratio(layout, aabb, 4096 / 64), 0.66) << layout;
 }
 
 TEST(PairWeights, byAreaAreThoseOfTheParentsBoxes) {

@@ -422,32 +422,26 @@ def ssh_node(index, plane, word, box, slots, base, inherited):
     return (*box, 2 * rest + base, 0)
 
 
-def mvh_below(nodes, index, own, codes, root, used):
-    """Gives the leaf nodes[index], with insets `own`, its tree."""
-    first, count = nodes[index][6:]
+def mvh_node(box, root, own, run, codes, frame, used, below, base):
+    """The node with a box over a run of entries, its insets in `frame` being `own`, in the tree whose root has the box `root`. What lies below is
+    put into `below`."""
+    first, count = run
     if count <= 4:
-        return
+        return (*box, first, count)
     leaves = -(-count // 4)
     left = 4 * -(-leaves // 2)
-    at, pair = (first + left) // 4, len(nodes)
+    at, pair = (first + left) // 4, len(below)
     used.add(at)
-    extent = [root[i + 3] - root[i] for i in range(3)]
-    nodes[index] = (*nodes[index][:6], pair, 0)
-    boxes = []
-    for code in (codes[at] & 15, codes[at] >> 4):
-        child = list(own)
+    below += [None, None]
+    for child, (code, entries) in enumerate(((codes[at] & 15, (first, left)), (codes[at] >> 4, (first + left, count - left)))):
+        inner = list(own)
         if code:
             axis, kind = divmod(code - 1, 5)
-            size = (extent[axis] - own[axis]) - own[axis + 3]
-            child[axis] += (7 / 16, 1 / 4, 0, 0, 1 / 4)[kind] * size
-            child[axis + 3] += (0, 0, 7 / 16, 1 / 4, 1 / 4)[kind] * size
-        boxes.append(child)
-    for own, entries in zip(boxes, ((first, left), (first + left, count - left))):
-        box, parent = box_of(root, own), nodes[index]
-        box = [max(box[i], parent[i]) if i < 3 else min(box[i], parent[i]) for i in range(6)]
-        nodes.append((*box, *entries))
-    for child in range(2):
-        mvh_below(nodes, pair + child, boxes[child], codes, root, used)
+            size = ((frame[axis + 3] - frame[axis]) - own[axis]) - own[axis + 3]
+            inner[axis] += (7 / 16, 1 / 4, 0, 0, 1 / 4)[kind] * size
+            inner[axis + 3] += (0, 0, 7 / 16, 1 / 4, 1 / 4)[kind] * size
+        below[pair + child] = mvh_node(box_within(root, frame, inner), root, inner, entries, codes, frame, used, below, base)
+    return (*box, pair + base, 0)
 
 
 def insets_of(root, box):
@@ -460,28 +454,32 @@ def insets_of(root, box):
 
 def read_levels(chunks, slots, references, scene):
     """The top level's nodes, the roots of BLASes as nodes (those of its leaves, or, with instances, of the meshes), the nodes below
-    them, PRIM, and ENTR. Over mvh BLASes all nodes are the first."""
+    them, PRIM, and ENTR."""
     raw = chunks.expect("FORM", 64)
     tlas_form, blas_form, blas_size, reserved, tlas_slots, blases, *root = struct.unpack_from("<4s4s2I2Q6f", raw)
     quantized, runs = tlas_form == b"quan", blas_form == b"mvh "
+    has_bits = b"quan" in (tlas_form, blas_form)
     bits, = struct.unpack_from("<I", raw, 56)
-    reject_if(reserved != 0 or any(raw[60:] if quantized else raw[32:]), 2006, "FORM: reserved")
+    reject_if(reserved != 0 or any(raw[60:]) or (not has_bits and bits) or (not quantized and any(raw[32:56])), 2006, "FORM: reserved")
     reject_if(not (2 <= tlas_slots <= slots and tlas_slots % 2 == 0 and blases == tlas_slots // 2
                    and ("placed" in scene or blases <= references) and 1 <= blas_size <= 65535), 2011, "FORM: counts")
-    reject_if(tlas_form not in (b"aabb", b"quan") or blas_form not in (b"aabb", b"ssh ", b"mvh "), 2010, "form of a level")
+    reject_if(tlas_form not in (b"aabb", b"quan") or blas_form not in (b"aabb", b"ssh ", b"mvh ", b"quan"), 2010, "form of a level")
     reject_if(blas_form == b"ssh " and references > 2**25, 2011, "references")
-    reject_if((quantized or runs) and references > 2**29, 2011, "references")
+    reject_if((has_bits or runs) and references > 2**29, 2011, "references")
+    reject_if(has_bits and not 5 <= bits <= 8, 2019, "bits")
     slots -= tlas_slots
     base, trees, entries = tlas_slots, blases, None
     if "placed" in scene:
         base, trees = 0, len(scene["runs"])
-        reject_if(runs or blases != len(scene["placed"]), 2020, "leaves of the top level, or mvh BLASes")
+        reject_if(blases != len(scene["placed"]), 2020, "leaves of the top level")
+        reject_if(runs and references != scene["triangles"], 2011, "references")
         entries = chunks.expect("ENTR", 4 * blases)
         reject_if(any(e >= blases for e, in struct.iter_unpack("<I", entries)), 3006, "ENTR")
+    top_has_runs = runs and entries is None
     if quantized:
-        check_quantized(root, bits)
-        reject_if(tlas_slots == 2 and runs and references > 128, 2011, "a root that is a leaf")
-        nodes, insets = quantized_nodes(chunks.expect("TLAS", 8 * tlas_slots - 16), root, bits, references if runs else blases)
+        check_root(root)
+        reject_if(tlas_slots == 2 and top_has_runs and references > 128, 2011, "a root that is a leaf")
+        nodes, insets = quantized_nodes(chunks.expect("TLAS", 8 * tlas_slots - 16), root, bits, references if top_has_runs else blases)
     else:
         raw = chunks.expect("TLAS", 32 * tlas_slots)
         reject_if(any(raw[32:64]), 3001, "slot 1")
@@ -489,29 +487,40 @@ def read_levels(chunks, slots, references, scene):
     leaves = [i for i, node in enumerate(nodes) if node[7] != 0]
     for i in leaves:
         first, count = nodes[i][6:]
-        reject_if(first + count > references if runs else count != 1 or first >= blases, 3004, f"leaf {i}")
+        reject_if(first + count > references if top_has_runs else count != 1 or first >= blases, 3004, f"leaf {i}")
     for i, node in enumerate(nodes):
         if i != 1 and node[7] == 0:
             join_aabb(node, i, tlas_slots, 0)
-    if runs:
-        reject_if(sum(2 * (-(-nodes[i][7] // 4) - 1) for i in leaves) != slots, 2011, "slots of the BLASes")
-        codes, used = chunks.expect("BLAS", -(-references // 4)), set()
+    # Where BLASes have their roots: the box, the one that insets are measured from, and the insets; and what names the BLAS.
+    if entries is None:
+        frame = nodes[0][:6]
         if not quantized:
-            root = nodes[0][:6]
-            insets = {i: insets_of(root, nodes[i][:6]) for i in leaves if all(map(math.isfinite, (*root, *nodes[i][:6])))}
-        for i in leaves:
-            mvh_below(nodes, i, insets.get(i, (0.0,) * 6), codes, root, used)
+            insets = {i: insets_of(frame, nodes[i][:6]) for i in leaves if all(map(math.isfinite, (*frame, *nodes[i][:6])))}
+        places = [(nodes[i][:6], frame, insets.get(i, (0.0,) * 6), nodes[i][6:]) for i in leaves]
+    elif runs:
+        places = [(tuple(box), box, (0.0,) * 6, run) for box, run in zip(scene["mesh_boxes"], scene["runs"])]
+    else:
+        places = [(tuple(box), box, (0.0,) * 6, (k, 1)) for k, box in enumerate(scene["mesh_boxes"])]
+    if runs:
+        reject_if(sum(2 * (-(-count // 4) - 1) for *_, (_, count) in places) != slots, 2011, "slots of the BLASes")
+        codes, used, whole, below = chunks.expect("BLAS", -(-references // 4)), set(), [], []
+        for box, frame, own, run in places:
+            whole.append(mvh_node(box, box, own, run, codes, frame, used, below, base))
         reject_if(any(code for at, code in enumerate(codes) if at not in used), 2006, "a byte that serves no node")
-        return nodes, [], [], chunks.expect("PRIM", 4 * references), None
-    boxes = [(nodes[i][:6], nodes[i][6]) for i in leaves] if entries is None else [(tuple(b), k) for k, b in enumerate(scene["mesh_boxes"])]
-    if blas_form == b"aabb":
+    elif blas_form == b"quan":
+        roots = list(struct.iter_unpack("<2I", chunks.expect("ROOT", 8 * trees)))
+        for word, more in roots:
+            reject_if(more % 8 or more > (0xFF if word >> 31 else 0), 3010, "a root's more")
+            reject_if(not word >> 31 and word >= slots // 2, 3002, "a root's record")
+        whole, below, _ = quantized_trees(chunks.expect("BLAS", 8 * slots), roots, places, bits, base)
+    elif blas_form == b"aabb":
         roots = list(struct.iter_unpack("<2I", chunks.expect("ROOT", 8 * trees)))
         below = [join_aabb(n, i, slots, base) for i, n in enumerate(struct.iter_unpack("<6f2I", chunks.expect("BLAS", 32 * slots)))]
-        whole = [join_aabb((*box, *roots[k]), -1, slots, base) for box, k in boxes]
+        whole = [join_aabb((*box, *roots[k]), -1, slots, base) for box, *_, (k, _) in places]
     else:
         roots = struct.unpack(f"<{trees}I", chunks.expect("ROOT", 4 * trees))
         inherited, below = {}, []
-        whole = [ssh_node(-1, None, roots[k], box, slots, base, inherited) for box, k in boxes]
+        whole = [ssh_node(-1, None, roots[k], box, slots, base, inherited) for box, *_, (k, _) in places]
         for i, (plane, word) in enumerate(struct.iter_unpack("<fI", chunks.expect("BLAS", 8 * slots))):
             reject_if(i not in inherited, 3003, f"node {i} of the bottom level")
             below.append(ssh_node(i, plane, word, inherited[i], slots, base, inherited))
@@ -562,9 +571,8 @@ def float_up(x):
     return struct.unpack("<f", struct.pack("<i", bits))[0]
 
 
-def check_quantized(root, bits):
+def check_root(root):
     reject_if(not all(map(math.isfinite, root)) or any(root[i] > root[i + 3] for i in range(3)), 4001, "the root's box")
-    reject_if(not 5 <= bits <= 8, 2019, "bits")
 
 
 def box_of(root, own):
@@ -572,31 +580,46 @@ def box_of(root, own):
     return [float_up(root[i] + own[i]) for i in range(3)] + [-float_up(-(root[i] - own[i])) for i in range(3, 6)]
 
 
-def quantized_nodes(raw, root, bits, leaf_size):
-    """The nodes, and the insets of leaves by node. A root that is a leaf has leaf_size entries."""
-    count = len(raw) // 16
-    extent = [root[i + 3] - root[i] for i in range(3)]
-    nodes = [(*root, 2, 0) if count else (*root, 0, leaf_size), (0,) * 8]
-    insets, leaves = {0: (0.0,) * 6}, {} if count else {0: (0.0,) * 6}
+def box_within(root, frame, own):
+    """What of that lies in the box of a tree's root."""
+    box = box_of(frame, own)
+    return [max(box[i], root[i]) if i < 3 else min(box[i], root[i]) for i in range(6)]
+
+
+def quantized_trees(raw, roots, places, bits, base):
+    """The roots of trees whose records share one array, the nodes below them, and the insets of these."""
+    count, parents, below, insets = len(raw) // 16, {}, [], []
+
+    def named(index, word, more, box, own, place):
+        if word >> 31:
+            return (*box, word & (2**29 - 1), (more >> 3 << 2 | word >> 29 & 3) + 1)
+        reject_if(more >> 3, 3010, f"record {index}")
+        reject_if(not index < word < count, 3002, f"record {index}")
+        reject_if(word in parents, 3003, f"record {word}")
+        parents[word] = own, place
+        return (*box, 2 * word + base, 0)
+
+    whole = [named(-1, *roots[place[3][0]], place[0], place[2], place) for place in places]
     for index, record in enumerate(struct.iter_unpack("<8B2I", raw)):
         planes, owners, words = record[:3] + record[4:7], (record[3], record[7]), record[8:]
         reject_if(any(n >> bits for n in planes), 3010, f"record {index}")
-        reject_if(index not in insets, 3003, f"record {index}")
-        parent = insets[index]
-        steps = [((extent[i] - parent[i]) - parent[i + 3]) * 2.0**-bits for i in range(3)]
+        reject_if(index not in parents, 3003, f"record {index}")
+        parent, place = parents[index]
+        root, frame = place[:2]
+        steps = [(((frame[i + 3] - frame[i]) - parent[i]) - parent[i + 3]) * 2.0**-bits for i in range(3)]
         for child, word in enumerate(words):
             own = [parent[i] + planes[i] * steps[i % 3] if owners[i // 3] >> i % 3 & 1 == child else parent[i] for i in range(6)]
-            box = box_of(root, own)
-            if word >> 31:
-                leaves[len(nodes)] = own
-                nodes.append((*box, word & (2**29 - 1), (owners[child] >> 3 << 2 | word >> 29 & 3) + 1))
-                continue
-            reject_if(owners[child] >> 3, 3010, f"record {index}")
-            reject_if(not index < word < count, 3002, f"record {index}")
-            reject_if(word in insets, 3003, f"record {word}")
-            insets[word] = own
-            nodes.append((*box, 2 * word + 2, 0))
-    return nodes, leaves
+            insets.append(own)
+            below.append(named(index, word, owners[child], box_within(root, frame, own), own, place))
+    return whole, below, insets
+
+
+def quantized_nodes(raw, root, bits, leaf_size):
+    """The nodes of one tree, and the insets of leaves by node. A root that is a leaf has leaf_size entries."""
+    if not raw:
+        return [(*root, 0, leaf_size), (0,) * 8], {0: (0.0,) * 6}
+    whole, below, insets = quantized_trees(raw, [(0, 0)], [(root, root, (0.0,) * 6, (0, 1))], bits, 2)
+    return whole + [(0,) * 8] + below, {2 + i: own for i, own in enumerate(insets) if below[i][7]}
 
 
 def read_quantized(chunks, slots, references):
@@ -605,7 +628,8 @@ def read_quantized(chunks, slots, references):
     raw = chunks.expect("FORM", 64)
     reject_if(any(raw[28:]), 2006, "FORM: reserved")
     *root, bits = struct.unpack_from("<6fI", raw)
-    check_quantized(root, bits)
+    check_root(root)
+    reject_if(not 5 <= bits <= 8, 2019, "bits")
     return quantized_nodes(chunks.expect("NODE", 16 * count), root, bits, references)[0], chunks.expect("PRIM", 4 * references)
 
 

@@ -4,27 +4,39 @@
 
 namespace bvhio {
 
-AabbBlases AabbBlases::encode(const Forest& forest, size_t) {
+AabbBlases AabbLinks::encode(const Forest& forest, const RootPlaces&, size_t, const EncodeOptions&) {
     Buffer<Root> roots(forest.roots.size());
     for (size_t i = 0; i < roots.size(); ++i)
         roots[i] = {forest.roots[i].first, forest.roots[i].primitiveCount};
-    return {std::move(roots).share(), forest.nodes};
+    return {std::move(roots).share(), AabbForm({forest.nodes, {}})};
 }
 
-Forest AabbBlases::decode(std::span<const Aabb> boxes) const {
-    Buffer<Node> roots(roots_.size());
+Forest AabbLinks::decode(const AabbBlases& blases, const RootPlaces& places) {
+    Buffer<Node> roots(blases.roots().size());
     for (size_t i = 0; i < roots.size(); ++i)
-        roots[i] = {boxes[i], roots_[i].first, roots_[i].primitiveCount};
-    return {std::move(roots).share(), nodes()};
+        roots[i] = {places.bounds[i], blases.roots()[i].first, blases.roots()[i].primitiveCount};
+    return {std::move(roots).share(), blases.form().bvh().nodes};
 }
 
-SshBlases SshBlases::encode(const Forest& forest, size_t references) {
-    SshForm::Trees trees = SshForm::encodeTrees(forest, references);
-    return {std::move(trees.roots), std::move(trees.nodes)};
+SshBlases SshLinks::encode(const Forest& forest, const RootPlaces& places, size_t references,
+                           const EncodeOptions&) {
+    SshForm::Trees trees = SshForm::encodeTrees(forest, places.bounds, references);
+    return {std::move(trees.roots), SshForm({}, std::move(trees.nodes), {})};
 }
 
-Forest SshBlases::decode(std::span<const Aabb> boxes) const {
-    return SshForm::decodeTrees({roots_, nodes()}, boxes);
+Forest SshLinks::decode(const SshBlases& blases, const RootPlaces& places) {
+    return SshForm::decodeTrees({blases.roots(), blases.form().nodes()}, places.bounds);
+}
+
+QuantizedBlases QuantizedLinks::encode(const Forest& forest, const RootPlaces& places, size_t references,
+                                       const EncodeOptions& options) {
+    QuantizedForm::Trees trees = QuantizedForm::encodeTrees(forest, places, references, options.bits);
+    return {std::move(trees.roots), QuantizedForm({}, options.bits, std::move(trees.records), {})};
+}
+
+Forest QuantizedLinks::decode(const QuantizedBlases& blases, const RootPlaces& places) {
+    return QuantizedForm::decodeTrees({blases.roots(), blases.form().records()}, places,
+                                      blases.form().bits());
 }
 
 }  // namespace bvhio

@@ -2,90 +2,66 @@
 //
 // BLASes are stepped through like a form, from `root`: the root of the BLAS that a leaf of the top level
 // names, given how the ray enters that leaf's box, which is the root's box too. Roots have nothing but what
-// tells where to go on: 4 or 8 bytes in an array of their own.
+// tells where to go on: 4 or 8 bytes in an array of their own. (Those of compress/mvh_blases.h have not even
+// that.)
 #pragma once
 
 #include "compress/aabb_form.h"
 #include "compress/mvh_blases.h"
+#include "compress/quantized_form.h"
 #include "compress/ssh_form.h"
 #include "compress/two_levels.h"
 
 namespace bvhio {
 
-/// BLASes in the aabb form.
-class AabbBlases {
+/// BLASes in a form whose nodes name their children. Links says what is special to the form:
+/// - Form, Root: an element of the array of roots,
+/// - kMaxLeafSize: of the form,
+/// - prepare(ray, bounds): the form's Ray; `bounds` are those of the top level's root, or of a mesh,
+/// - cursor(root, entry, ray): that of a root, as the box is entered,
+/// - encode, decode: as below.
+template <class Links>
+class LinkedBlases {
   public:
-    static constexpr std::string_view kName = AabbForm::kName;
+    using Form = typename Links::Form;
+    using Root = typename Links::Root;
+    using Cursor = typename Form::Cursor;
+    using Ray = typename Form::Ray;
+    static constexpr std::string_view kName = Form::kName;
     static constexpr bool kAreRuns = false;
-    using Cursor = AabbForm::Cursor;
-    using Ray = AabbForm::Ray;
-    using Root = AabbForm::Cursor;
-    static constexpr int kMaxChildren = AabbForm::kMaxChildren;
+    static constexpr int kMaxChildren = Form::kMaxChildren;
+    static constexpr uint32_t kMaxLeafSize = Links::kMaxLeafSize;
 
-    AabbBlases(SharedArray<Root> roots, SharedArray<Node> nodes)
-        : roots_(std::move(roots)), form_({std::move(nodes), {}}) {}
-    static AabbBlases encode(const Forest& forest, size_t references);
-    Forest decode(std::span<const Aabb> boxes) const;
+    /// `form` has nodes only: those below all roots.
+    LinkedBlases(SharedArray<Root> roots, Form form) : roots_(std::move(roots)), form_(std::move(form)) {}
+
+    /// Of trees that have the boxes of `places` at their roots. Throws Error{unsupported} where the form
+    /// does.
+    static LinkedBlases encode(const Forest& forest, const RootPlaces& places, size_t references,
+                               const EncodeOptions& options) {
+        return Links::encode(forest, places, references, options);
+    }
+    Forest decode(const RootPlaces& places) const { return Links::decode(*this, places); }
 
     const SharedArray<Root>& roots() const { return roots_; }
-    const SharedArray<Node>& nodes() const { return form_.bvh().nodes; }
+    const Form& form() const { return form_; }
     /// The nodes, then the roots.
     size_t nodeBytes() const { return form_.nodeBytes() + roots_.size() * sizeof(Root); }
 
-    static const PreparedRay& prepare(const PreparedRay& ray, const Aabb&) { return ray; }
+    static decltype(auto) prepare(const PreparedRay& ray, const Aabb& bounds) {
+        return Links::prepare(ray, bounds);
+    }
 
     /// `leaf` and `entry` are those of a leaf of the top level.
     template <class Entry, class Metrics>
-    BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, Ray, Metrics& metrics) const {
-        metrics.recordFetched(form_.nodeBytes() + leaf.first * sizeof(Root), sizeof(Root));
-        return {roots_[leaf.first], entry.enter};
-    }
-
-    template <class Metrics>
-    BVHIO_INLINE int step(const Entered<Cursor>& from, const PreparedRay& ray, float tLimit,
-                          Entered<Cursor>* children, Metrics& metrics) const {
-        return form_.step(from, ray, tLimit, children, metrics);
-    }
-    bool isLeaf(const Cursor& cursor) const { return form_.isLeaf(cursor); }
-    PrimitiveRange primitiveRange(const Cursor& cursor) const { return form_.primitiveRange(cursor); }
-
-  private:
-    SharedArray<Root> roots_;
-    AabbForm form_;
-};
-static_assert(SteppableForm<AabbBlases>);
-
-/// BLASes in the ssh form.
-class SshBlases {
-  public:
-    static constexpr std::string_view kName = SshForm::kName;
-    static constexpr bool kAreRuns = false;
-    using Cursor = SshForm::Cursor;
-    using Ray = SshForm::Ray;
-    using Root = uint32_t;  // the word of a node whose plane says nothing
-    static constexpr int kMaxChildren = SshForm::kMaxChildren;
-
-    SshBlases(SharedArray<Root> roots, SharedArray<SshNode> nodes)
-        : roots_(std::move(roots)), form_({}, std::move(nodes), {}) {}
-    static SshBlases encode(const Forest& forest, size_t references);
-    Forest decode(std::span<const Aabb> boxes) const;
-
-    const SharedArray<Root>& roots() const { return roots_; }
-    const SharedArray<SshNode>& nodes() const { return form_.nodes(); }
-    /// The nodes, then the roots.
-    size_t nodeBytes() const { return form_.nodeBytes() + roots_.size() * sizeof(Root); }
-
-    static SshRay prepare(const PreparedRay& ray, const Aabb&) { return SshRay(ray); }
-
-    template <class Entry, class Metrics>
-    BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, const Ray&,
+    BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, const Ray& ray,
                                       Metrics& metrics) const {
         metrics.recordFetched(form_.nodeBytes() + leaf.first * sizeof(Root), sizeof(Root));
-        return {{roots_[leaf.first], entry.exit()}, entry.enter};
+        return {Links::cursor(roots_[leaf.first], entry, ray), entry.enter};
     }
 
     template <class Metrics>
-    BVHIO_INLINE int step(const Entered<Cursor>& from, const SshRay& ray, float tLimit,
+    BVHIO_INLINE int step(const Entered<Cursor>& from, const Ray& ray, float tLimit,
                           Entered<Cursor>* children, Metrics& metrics) const {
         return form_.step(from, ray, tLimit, children, metrics);
     }
@@ -94,8 +70,58 @@ class SshBlases {
 
   private:
     SharedArray<Root> roots_;
-    SshForm form_;
+    Form form_;
 };
-static_assert(SteppableForm<SshBlases>);
+
+struct AabbLinks {
+    using Form = AabbForm;
+    using Root = AabbForm::Cursor;
+    static constexpr uint32_t kMaxLeafSize = bvhio::kMaxLeafSize;
+
+    static LinkedBlases<AabbLinks> encode(const Forest& forest, const RootPlaces& places, size_t references,
+                                          const EncodeOptions& options);
+    static Forest decode(const LinkedBlases<AabbLinks>& blases, const RootPlaces& places);
+    static const PreparedRay& prepare(const PreparedRay& ray, const Aabb&) { return ray; }
+    template <class Entry>
+    static BVHIO_INLINE Form::Cursor cursor(const Root& root, const Entry&, const PreparedRay&) {
+        return root;
+    }
+};
+
+struct SshLinks {
+    using Form = SshForm;
+    using Root = uint32_t;  // the word of a node whose plane says nothing
+    static constexpr uint32_t kMaxLeafSize = SshNode::kMaxLeafSize;
+
+    static LinkedBlases<SshLinks> encode(const Forest& forest, const RootPlaces& places, size_t references,
+                                         const EncodeOptions& options);
+    static Forest decode(const LinkedBlases<SshLinks>& blases, const RootPlaces& places);
+    static SshRay prepare(const PreparedRay& ray, const Aabb&) { return SshRay(ray); }
+    template <class Entry>
+    static BVHIO_INLINE Form::Cursor cursor(Root root, const Entry& entry, const SshRay&) {
+        return {root, entry.exit()};
+    }
+};
+
+/// Boxes are relative to the root's: a ray takes over its place from the leaf above.
+struct QuantizedLinks {
+    using Form = QuantizedForm;
+    using Root = QuantizedRoot;
+    static constexpr uint32_t kMaxLeafSize = QuantizedRecord::kMaxLeafSize;
+
+    static LinkedBlases<QuantizedLinks> encode(const Forest& forest, const RootPlaces& places,
+                                               size_t references, const EncodeOptions& options);
+    static Forest decode(const LinkedBlases<QuantizedLinks>& blases, const RootPlaces& places);
+    static RayFrame prepare(const PreparedRay& ray, const Aabb& bounds) { return {ray, bounds}; }
+    template <class Entry>
+    static BVHIO_INLINE Form::Cursor cursor(const Root& root, const Entry& entry, const RayFrame& ray) {
+        return {entry.place(ray), root.word, uint8_t(root.more)};
+    }
+};
+
+using AabbBlases = LinkedBlases<AabbLinks>;
+using SshBlases = LinkedBlases<SshLinks>;
+using QuantizedBlases = LinkedBlases<QuantizedLinks>;
+static_assert(SteppableForm<AabbBlases> && SteppableForm<SshBlases> && SteppableForm<QuantizedBlases>);
 
 }  // namespace bvhio

@@ -46,11 +46,11 @@ enum class MvhBuild { best, paper, given };
 
 /// Forms of the two-level form's levels, the default first.
 enum class TlasForm : uint8_t { quantized, aabb };
-enum class BlasForm : uint8_t { mvh, ssh, aabb };
+enum class BlasForm : uint8_t { mvh, ssh, quantized, aabb };
 
 /// What forms can be told; each takes what concerns it.
 struct EncodeOptions {
-    uint32_t bits = 8;  // quantized: of a plane, 5 to 8
+    uint32_t bits = 8;  // quantized, a level of two in that form, too: of a plane, 5 to 8
 
     // mvh; 0 = as suits the tree
     uint32_t leafSize = 4;

@@ -61,12 +61,12 @@ Aabb boundsOf(std::span<const Reference> references) {
     return box;
 }
 
-/// Builds one tree after the other; keeps its memory.
 class Builder {
   public:
     Builder(const InsetFrame& frame, uint8_t* codes) : frame_(frame), codes_(codes) {}
 
     /// Puts the run's references, which the box holds, into the order of its leaves, and writes its codes.
+    /// Large parts are built side by side.
     void build(MvhRun run, const InsetBox& box, std::span<Reference> references) {
         const auto byPrimitive = [](const Reference& a, const Reference& b) {
             return a.primitive < b.primitive;
@@ -103,8 +103,16 @@ class Builder {
             }
         std::copy(best.begin(), best.end(), references.begin());
         codes_[run.codes()] = uint8_t(codes[0] | codes[1] << 4);
-        build(run.left(), cutBox(frame_, box, codes[0]), references.first(half));
+        const auto buildLeft = [&] {
+            build(run.left(), cutBox(frame_, box, codes[0]), references.first(half));
+        };
+        TaskGroup others;
+        if (half >= kForkSize)
+            others.run(buildLeft);
+        else
+            buildLeft();
         build(run.right(), cutBox(frame_, box, codes[1]), references.subspan(half));
+        others.wait();
     }
 
     /// Only writes the codes: the references are in order.
@@ -120,6 +128,8 @@ class Builder {
     }
 
   private:
+    static constexpr size_t kForkSize = 4096;
+
     enum class Key { center, low, high };
     static double valueOf(const Reference& reference, Key key, int axis) {
         const double low = reference.box.min[axis], high = reference.box.max[axis];
@@ -130,84 +140,70 @@ class Builder {
     uint8_t* codes_;
 };
 
-std::vector<size_t> leavesOf(const Bvh& top) {
-    std::vector<size_t> leaves;
-    for (size_t i = 0; i < top.nodes.size(); ++i)
-        if (top.nodes[i].isLeaf()) leaves.push_back(i);
-    return leaves;
-}
+/// Decodes one tree after the other, its nodes below the root pair by pair.
+class Decoder {
+  public:
+    Decoder(const RootPlaces& places, std::span<const uint8_t> codes, Buffer<Node>& nodes)
+        : places_(places), codes_(codes), nodes_(nodes) {}
 
-/// What of a box lies in its parent's: insets of a box with full-precision planes may be a little too small.
-Aabb within(const Aabb& parent, Aabb box) {
-    for (int axis = 0; axis < 3; ++axis) {
-        box.min[axis] = std::max(box.min[axis], parent.min[axis]);
-        box.max[axis] = std::min(box.max[axis], parent.max[axis]);
+    Node root(size_t tree) {
+        const PrimitiveRange run = places_.runs[tree];
+        return node(tree, {run.first, run.count}, places_.insets[tree], places_.bounds[tree]);
     }
-    return box;
-}
 
-/// Writes the nodes below one that is placed in `nodes` already, pair by pair from `next` on.
-void decodeBelow(MvhRun run, const InsetBox& box, size_t node, const InsetFrame& frame,
-                 std::span<const uint8_t> codes, Buffer<Node>& nodes, size_t& next) {
-    if (run.isLeaf()) {
-        nodes[node].first = run.first;
-        nodes[node].primitiveCount = run.count;
-        return;
+  private:
+    Node node(size_t tree, MvhRun run, const InsetBox& box, const Aabb& bounds) {
+        if (run.isLeaf()) return {bounds, run.first, run.count};
+        const size_t pair = next_;
+        next_ += 2;
+        const uint32_t codes = codes_[run.codes()];
+        const auto child = [&](uint32_t code, MvhRun childRun) {
+            const InsetBox childBox = cutBox(places_.frame(tree), box, code);
+            return node(tree, childRun, childBox, places_.floats(tree, childBox));
+        };
+        nodes_[pair] = child(codes & 15, run.left());
+        nodes_[pair + 1] = child(codes >> 4, run.right());
+        return {bounds, uint32_t(pair), 0};
     }
-    const size_t pair = next;
-    next += 2;
-    nodes[node].first = uint32_t(pair);
-    nodes[node].primitiveCount = 0;
-    const uint32_t both = codes[run.codes()];
-    const InsetBox left = cutBox(frame, box, both & 15), right = cutBox(frame, box, both >> 4);
-    nodes[pair].bounds = within(nodes[node].bounds, frame.floats(left));
-    nodes[pair + 1].bounds = within(nodes[node].bounds, frame.floats(right));
-    decodeBelow(run.left(), left, pair, frame, codes, nodes, next);
-    decodeBelow(run.right(), right, pair + 1, frame, codes, nodes, next);
-}
+
+    const RootPlaces& places_;
+    std::span<const uint8_t> codes_;
+    Buffer<Node>& nodes_;
+    size_t next_ = 0;
+};
 
 }  // namespace
 
-MvhBlases MvhBlases::encode(const DecodedTlas& top, std::span<uint32_t> primitives,
+MvhBlases MvhBlases::encode(const RootPlaces& places, std::span<uint32_t> primitives,
                             std::span<const Aabb> boxes, std::span<const uint32_t> ordered) {
-    const InsetFrame frame(top.bvh.nodes[0].bounds);
-    const std::vector<size_t> leaves = leavesOf(top.bvh);
     Buffer<uint8_t> codes(byteCount(primitives.size()));
     std::fill_n(codes.data(), codes.size(), uint8_t(0));
-    parallelChunks(leaves.size(), 256, [&](size_t begin, size_t end) {
-        Builder builder(frame, codes.data());
+    const size_t grain = places.frames.size() == 1 ? 256 : 1;  // trees of meshes may be large
+    parallelChunks(places.runs.size(), grain, [&](size_t begin, size_t end) {
         std::vector<Reference> references;
         for (size_t i = begin; i < end; ++i) {
-            const Node& leaf = top.bvh.nodes[leaves[i]];
-            references.resize(leaf.primitiveCount);
-            for (uint32_t k = 0; k < leaf.primitiveCount; ++k)
-                references[k] = {boxes[leaf.first + k], primitives[leaf.first + k]};
-            const MvhRun run{leaf.first, leaf.primitiveCount};
+            const MvhRun run{places.runs[i].first, places.runs[i].count};
+            references.resize(run.count);
+            for (uint32_t k = 0; k < run.count; ++k)
+                references[k] = {boxes[run.first + k], primitives[run.first + k]};
+            Builder builder(places.frame(i), codes.data());
             if (ordered[run.first] == run.count)
-                builder.code(run, top.insets[leaves[i]], references);
+                builder.code(run, places.insets[i], references);
             else
-                builder.build(run, top.insets[leaves[i]], references);
-            for (uint32_t k = 0; k < leaf.primitiveCount; ++k)
-                primitives[leaf.first + k] = references[k].primitive;
+                builder.build(run, places.insets[i], references);
+            for (uint32_t k = 0; k < run.count; ++k) primitives[run.first + k] = references[k].primitive;
         }
     });
     return MvhBlases(std::move(codes).share());
 }
 
-Bvh MvhBlases::decode(const DecodedTlas& top, SharedArray<uint32_t> primitives) const {
-    const InsetFrame frame(top.bvh.nodes[0].bounds);
-    const std::vector<size_t> leaves = leavesOf(top.bvh);
-    size_t slots = top.bvh.nodes.size();
-    for (const size_t leaf : leaves)
-        slots += 2 * (MvhRun{0, top.bvh.nodes[leaf].primitiveCount}.leafCount() - 1);
-    Buffer<Node> nodes(slots);
-    std::copy(top.bvh.nodes.begin(), top.bvh.nodes.end(), nodes.data());
-    size_t next = top.bvh.nodes.size();
-    for (const size_t i : leaves) {
-        const Node& leaf = top.bvh.nodes[i];
-        decodeBelow({leaf.first, leaf.primitiveCount}, top.insets[i], i, frame, codes_, nodes, next);
-    }
-    return {std::move(nodes).share(), std::move(primitives)};
+Forest MvhBlases::decode(const RootPlaces& places) const {
+    size_t slots = 0;
+    for (const PrimitiveRange& run : places.runs) slots += MvhRun{run.first, run.count}.slotsBelow();
+    Buffer<Node> roots(places.runs.size()), nodes(slots);
+    Decoder decoder(places, codes_, nodes);
+    for (size_t i = 0; i < roots.size(); ++i) roots[i] = decoder.root(i);
+    return {std::move(roots).share(), std::move(nodes).share()};
 }
 
 }  // namespace bvhio

@@ -15,9 +15,9 @@
 // - All trees share one array of bytes without a table: see MvhRun.
 #pragma once
 
-#include "compress/inset_box.h"
 #include "compress/ray_frame.h"
-#include "compress/tlas.h"
+#include "compress/root_places.h"
+#include "compress/two_levels.h"
 #include "core/shared_array.h"
 
 namespace bvhio {
@@ -38,6 +38,8 @@ struct MvhRun {
     BVHIO_INLINE uint32_t leftCount() const { return (leafCount() + 1) / 2 * kLeafSize; }
     BVHIO_INLINE MvhRun left() const { return {first, leftCount()}; }
     BVHIO_INLINE MvhRun right() const { return {first + leftCount(), count - leftCount()}; }
+    /// How many nodes there are below this one.
+    size_t slotsBelow() const { return 2 * (size_t(leafCount()) - 1); }
     /// Of an inner node.
     BVHIO_INLINE uint32_t codes() const { return (first + leftCount()) / kLeafSize; }
 };
@@ -96,13 +98,12 @@ class MvhBlases {
         return (primitives + MvhRun::kLeafSize - 1) / MvhRun::kLeafSize;
     }
 
-    /// Of the trees over the leaves of `top`, which own runs of `primitives`; puts these into the order of
-    /// their trees. `boxes` has for each entry of `primitives` the box that must hold it, `ordered` where a
-    /// run starts that is in such an order already its length, else 0.
-    static MvhBlases encode(const DecodedTlas& top, std::span<uint32_t> primitives,
+    /// Of the trees over runs of `primitives` at `places`; puts these into the order of their trees. `boxes`
+    /// has for each entry of `primitives` the box that must hold it, `ordered` where a run starts that is in
+    /// such an order already its length, else 0. Parallel.
+    static MvhBlases encode(const RootPlaces& places, std::span<uint32_t> primitives,
                             std::span<const Aabb> boxes, std::span<const uint32_t> ordered);
-    /// The nodes of both levels.
-    Bvh decode(const DecodedTlas& top, SharedArray<uint32_t> primitives) const;
+    Forest decode(const RootPlaces& places) const;
 
     const SharedArray<uint8_t>& codes() const { return codes_; }
     size_t nodeBytes() const { return codes_.size(); }

@@ -3,20 +3,27 @@
 #include <algorithm>
 
 #include "compress/divide_leaves.h"
-#include "compress/inset_box.h"
 #include "core/buffer.h"
 #include "core/error.h"
 
 namespace bvhio {
 namespace {
 
+/// What a record's nodes take over: their parent's box, and the tree they are in.
+struct Parent {
+    InsetBox box;
+    size_t tree = 0;
+};
+
 /// A box whose sides may be moved inwards by steps, up to 2^bits - 1 of them. Coordinates of sides 3 to 5 are
 /// negated here: for all sides larger ones are further inside.
 class Grid {
   public:
-    Grid(const InsetFrame& frame, const InsetBox& box, uint32_t bits) : box_(box), most_((1u << bits) - 1) {
+    Grid(const RootPlaces& places, const Parent& parent, uint32_t bits)
+        : box_(parent.box), bounds_(places.bounds[parent.tree]), most_((1u << bits) - 1) {
+        const InsetFrame& frame = places.frame(parent.tree);
         for (int axis = 0; axis < 3; ++axis) {
-            step_[axis] = frame.size(box, axis) / double(1u << bits);
+            step_[axis] = frame.size(box_, axis) / double(1u << bits);
             root_[axis] = frame.bounds().min[axis];
             root_[axis + 3] = -frame.bounds().max[axis];
         }
@@ -38,7 +45,7 @@ class Grid {
         for (int axis = 0; axis < 3; ++axis) stepsOfUnit[axis] = 1 / step_[axis];
         for (uint32_t side = 0; side < 6; ++side) {
             const double start = plane(side, 0);
-            const double outermost = InsetFrame::upwards(start);
+            const double outermost = std::max<double>(InsetFrame::upwards(start), coordinate(bounds_, side));
             const double toLeft = coordinate(left, side), toRight = coordinate(right, side);
             const bool isRights = toRight > toLeft;
             const double target = isRights ? toRight : toLeft;
@@ -63,27 +70,22 @@ class Grid {
     }
 
     const InsetBox& box_;
+    const Aabb& bounds_;  // of the tree's root
     double step_[3], root_[6];
     uint32_t most_;
 };
 
-}  // namespace
-
-QuantizedForm QuantizedForm::encode(const Scene&, const Bvh& given, const EncodeOptions& options) {
-    if (given.primitives.size() > QuantizedRecord::kMaxReferences)
-        throw Error(ErrorKind::unsupported, "the quantized form holds at most " +
-                                                std::to_string(QuantizedRecord::kMaxReferences) +
-                                                " references: use another --form");
-    const Bvh bvh = divideLeaves(given, QuantizedRecord::kMaxLeafSize);
-    const Aabb& bounds = bvh.nodes[0].bounds;
-    const InsetFrame frame(bounds);
-
-    // Record r is of nodes 2 r + 2 and 2 r + 3; boxes[r] is their parent's. Parents come first.
-    Buffer<QuantizedRecord> records(bvh.nodes.size() / 2 - 1);
-    std::vector<InsetBox> boxes(records.size());
+/// The records of trees whose nodes below the roots are `nodes`, in slots from `firstSlot` on.
+Buffer<QuantizedRecord> encodeRecords(std::span<const Node> roots, std::span<const Node> nodes,
+                                      uint32_t firstSlot, const RootPlaces& places, uint32_t bits) {
+    Buffer<QuantizedRecord> records(nodes.size() / 2);
+    std::vector<Parent> parents(records.size());
+    const auto recordBelow = [&](const Node& node) { return (node.left() - firstSlot) / 2; };
+    for (size_t i = 0; i < roots.size(); ++i)
+        if (!roots[i].isLeaf()) parents[recordBelow(roots[i])] = {places.insets[i], i};
     for (size_t r = 0; r < records.size(); ++r) {
-        const Node* pair = &bvh.nodes[2 * r + 2];
-        const Grid grid(frame, boxes[r], options.bits);
+        const Node* pair = &nodes[2 * r];
+        const Grid grid(places, parents[r], bits);
         QuantizedRecord record{};
         grid.setPlanes(record, pair[0].bounds, pair[1].bounds);
         for (uint32_t child = 0; child < 2; ++child) {
@@ -91,42 +93,104 @@ QuantizedForm QuantizedForm::encode(const Scene&, const Bvh& given, const Encode
             if (node.isLeaf()) {
                 record.setLeaf(child, node.first, node.primitiveCount);
             } else {
-                record.setInner(child, node.left() / 2 - 1);
-                boxes[node.left() / 2 - 1] = grid.child(record, child);
+                record.setInner(child, recordBelow(node));
+                parents[recordBelow(node)] = {grid.child(record, child), parents[r].tree};
             }
         }
         records[r] = record;
     }
-    return {bounds, options.bits, std::move(records).share(), bvh.primitives};
+    return records;
+}
+
+/// A node that a word names.
+Node nodeOf(uint32_t word, uint32_t more, const Aabb& bounds, uint32_t firstSlot) {
+    if (QuantizedRecord::isLeaf(word))
+        return {bounds, QuantizedRecord::firstPrimitive(word),
+                QuantizedRecord::primitiveCount(word, uint8_t(more))};
+    return {bounds, 2 * QuantizedRecord::record(word) + firstSlot, 0};
+}
+
+/// Writes the nodes that records stand for, and their boxes as insets, too, unless null: those of slots from
+/// `firstSlot` on. Children's records lie behind their parents'.
+void decodeRecords(std::span<const QuantizedRoot> roots, std::span<const QuantizedRecord> records,
+                   uint32_t firstSlot, const RootPlaces& places, uint32_t bits, Node* nodes,
+                   InsetBox* insets) {
+    std::vector<Parent> parents(records.size());
+    for (size_t i = 0; i < roots.size(); ++i)
+        if (!QuantizedRecord::isLeaf(roots[i].word) && !records.empty())
+            parents[QuantizedRecord::record(roots[i].word)] = {places.insets[i], i};
+    for (size_t r = 0; r < records.size(); ++r) {
+        const QuantizedRecord& record = records[r];
+        const size_t tree = parents[r].tree;
+        const Grid grid(places, parents[r], bits);
+        for (uint32_t child = 0; child < 2; ++child) {
+            const InsetBox box = grid.child(record, child);
+            const uint32_t word = record.children[child];
+            nodes[2 * r + child] = nodeOf(word, record.more(child), places.floats(tree, box), firstSlot);
+            if (insets != nullptr) insets[2 * r + child] = box;
+            if (!QuantizedRecord::isLeaf(word)) parents[QuantizedRecord::record(word)] = {box, tree};
+        }
+    }
+}
+
+/// The place of a tree that is alone.
+RootPlaces placesOf(const Aabb& bounds) {
+    return {{InsetFrame(bounds)}, {bounds}, {InsetBox{}}, {}};
+}
+
+void refuseTooMany(size_t references) {
+    if (references > QuantizedRecord::kMaxReferences)
+        throw Error(ErrorKind::unsupported, "the quantized form holds at most " +
+                                                std::to_string(QuantizedRecord::kMaxReferences) +
+                                                " references: use another --form");
+}
+
+}  // namespace
+
+QuantizedForm QuantizedForm::encode(const Scene&, const Bvh& given, const EncodeOptions& options) {
+    refuseTooMany(given.primitives.size());
+    const Bvh bvh = divideLeaves(given, QuantizedRecord::kMaxLeafSize);
+    const std::span<const Node> nodes = bvh.nodes;
+    const Aabb& bounds = nodes[0].bounds;
+    return {bounds, options.bits,
+            encodeRecords(nodes.first(1), nodes.subspan(2), 2, placesOf(bounds), options.bits).share(),
+            bvh.primitives};
 }
 
 Bvh QuantizedForm::decode(InsetBox* insets) const {
-    const InsetFrame frame(bounds_);
     Buffer<Node> nodes(2 * records_.size() + 2);
     nodes[0] = {bounds_, 2, 0};
     if (records_.empty()) nodes[0] = {bounds_, 0, uint32_t(primitives_.size())};
     nodes[1] = {};
-    std::vector<InsetBox> boxes(records_.size());
-    for (size_t r = 0; r < records_.size(); ++r) {
-        const QuantizedRecord& record = records_[r];
-        const Grid grid(frame, boxes[r], bits_);
-        for (uint32_t child = 0; child < 2; ++child) {
-            const InsetBox box = grid.child(record, child);
-            const uint32_t word = record.children[child];
-            if (insets != nullptr) insets[2 * r + 2 + child] = box;
-            Node& node = nodes[2 * r + 2 + child];
-            node.bounds = frame.floats(box);
-            if (QuantizedRecord::isLeaf(word)) {
-                node.first = QuantizedRecord::firstPrimitive(word);
-                node.primitiveCount = QuantizedRecord::primitiveCount(word, record.more(child));
-            } else {
-                node.first = 2 * QuantizedRecord::record(word) + 2;
-                node.primitiveCount = 0;
-                boxes[QuantizedRecord::record(word)] = box;
-            }
-        }
-    }
+    const QuantizedRoot root{};
+    decodeRecords({&root, 1}, records_, 2, placesOf(bounds_), bits_, nodes.data() + 2,
+                  insets == nullptr ? nullptr : insets + 2);
     return {std::move(nodes).share(), primitives_};
+}
+
+QuantizedForm::Trees QuantizedForm::encodeTrees(const Forest& given, const RootPlaces& places,
+                                                size_t references, uint32_t bits) {
+    refuseTooMany(references);
+    const Forest forest = divideLeaves(given, QuantizedRecord::kMaxLeafSize);
+    Buffer<QuantizedRoot> roots(forest.roots.size());
+    for (size_t i = 0; i < roots.size(); ++i) {
+        const Node& node = forest.roots[i];
+        QuantizedRecord asChild{};
+        if (node.isLeaf())
+            asChild.setLeaf(0, node.first, node.primitiveCount);
+        else
+            asChild.setInner(0, node.left() / 2);
+        roots[i] = {asChild.children[0], asChild.more(0)};
+    }
+    return {std::move(roots).share(), encodeRecords(forest.roots, forest.nodes, 0, places, bits).share()};
+}
+
+Forest QuantizedForm::decodeTrees(const Trees& trees, const RootPlaces& places, uint32_t bits) {
+    Buffer<Node> roots(trees.roots.size()), nodes(2 * trees.records.size());
+    for (size_t i = 0; i < roots.size(); ++i)
+        roots[i] = nodeOf(trees.roots[i].word, trees.roots[i].more, places.bounds[i], 0);
+    decodeRecords(trees.roots, trees.records, 0, places, bits, nodes.data(), nullptr);
+    return {std::move(roots).share(), std::move(nodes).share()};
 }
 
 }  // namespace bvhio

@@ -10,9 +10,9 @@
 // is paid for by one margin a ray (compress/ray_frame.h has the proof), not at each step.
 #pragma once
 
-#include "compress/form_concept.h"
-#include "compress/inset_box.h"
 #include "compress/ray_frame.h"
+#include "compress/root_places.h"
+#include "compress/two_levels.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -58,6 +58,12 @@ struct alignas(16) QuantizedRecord {
 };
 static_assert(sizeof(QuantizedRecord) == 16);
 
+/// The root of one tree of many, as a record has a child: its word and `more`.
+struct QuantizedRoot {
+    uint32_t word, more;
+};
+static_assert(sizeof(QuantizedRoot) == 8);
+
 class QuantizedForm {
   public:
     static constexpr std::string_view kName = "quantized";
@@ -88,6 +94,17 @@ class QuantizedForm {
     Bvh decode() const { return decode(nullptr); }
     /// The boxes as insets, too, by node: `insets` has room for two more than twice the records.
     Bvh decode(InsetBox* insets) const;
+
+    /// Trees whose records share one array.
+    struct Trees {
+        SharedArray<QuantizedRoot> roots;
+        SharedArray<QuantizedRecord> records;
+    };
+    /// The same for the trees of a forest, which have the boxes of `places` at their roots.
+    static Trees encodeTrees(const Forest& forest, const RootPlaces& places, size_t references,
+                             uint32_t bits);
+    static Forest decodeTrees(const Trees& trees, const RootPlaces& places, uint32_t bits);
+
     const Aabb& bounds() const { return bounds_; }
     uint32_t bits() const { return bits_; }
     const SharedArray<QuantizedRecord>& records() const { return records_; }

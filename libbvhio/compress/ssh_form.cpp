@@ -149,14 +149,16 @@ SshForm SshForm::encode(const Scene&, const Bvh& bvh, const EncodeOptions&) {
     return {given[0].bounds, std::move(nodes).share(), bvh.primitives};
 }
 
-SshForm::Trees SshForm::encodeTrees(const Forest& forest, size_t references) {
+SshForm::Trees SshForm::encodeTrees(const Forest& forest, std::span<const Aabb> boxes, size_t references) {
     refuseTooMany(references);
     const Forest given = divideLeaves(forest, SshNode::kMaxLeafSize);
     PairEncoder encoder(given.nodes);
     Buffer<uint32_t> roots(given.roots.size());
     Buffer<SshNode> nodes(given.nodes.size());
-    for (size_t i = 0; i < roots.size(); ++i)
-        roots[i] = encoder.code(given.roots[i], given.roots[i].bounds).word;
+    for (size_t i = 0; i < roots.size(); ++i) {
+        const Node& root = given.roots[i];
+        roots[i] = encoder.code({boxes[i], root.first, root.primitiveCount}, boxes[i]).word;
+    }
     for (size_t i = 0; i < nodes.size(); ++i) nodes[i] = encoder.at(i);
     return {std::move(roots).share(), std::move(nodes).share()};
 }

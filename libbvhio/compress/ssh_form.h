@@ -90,9 +90,8 @@ class SshForm {
         SharedArray<uint32_t> roots;
         SharedArray<SshNode> nodes;
     };
-    /// As `encode` does; roots keep their boxes.
-    static Trees encodeTrees(const Forest& forest, size_t references);
-    /// `boxes` are the roots'.
+    /// As `encode` does. `boxes` are the roots', which keep them.
+    static Trees encodeTrees(const Forest& forest, std::span<const Aabb> boxes, size_t references);
     static Forest decodeTrees(const Trees& trees, std::span<const Aabb> boxes);
 
     using Ray = SshRay;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "compress/aabb_form.h"
-#include "compress/inset_box.h"
 #include "compress/quantized_form.h"
+#include "compress/root_places.h"
 
 namespace bvhio {
 
@@ -17,13 +17,10 @@ struct DecodedTlas {
     Bvh bvh;
     std::vector<InsetBox> insets;
 
-    /// The boxes of the leaves, by what they name: their first entry, below `count`.
-    std::vector<Aabb> leafBoxes(size_t count) const {
-        std::vector<Aabb> boxes(count);
-        for (const Node& node : bvh.nodes)
-            if (node.isLeaf()) boxes[node.first] = node.bounds;
-        return boxes;
-    }
+    /// Where the trees below the leaves have their roots: by the index that a leaf has as its first entry;
+    /// or, where leaves have the runs that their trees are over, one after the other. Then `bvh` is changed
+    /// so that its leaves have these indices.
+    RootPlaces places(bool areRuns);
 };
 
 /// A ray that enters a box: for a leaf of the top level whose box is at hand.

@@ -1,7 +1,9 @@
 #include "compress/two_level_form.h"
 
 #include <algorithm>
+#include <numeric>
 
+#include "compress/divide_leaves.h"
 #include "compress/forest.h"
 #include "core/buffer.h"
 #include "core/error.h"
@@ -17,24 +19,19 @@ auto makeAlternative(size_t index, const Function& make) {
     return make(static_cast<const std::variant_alternative_t<I, Variant>*>(nullptr));
 }
 
-/// The trees below the leaves of a top level, whose roots have the leaves' boxes.
-Forest withBoxes(const Forest& forest, std::span<const Aabb> boxes) {
-    Buffer<Node> roots(forest.roots.size());
-    for (size_t i = 0; i < roots.size(); ++i) {
-        roots[i] = forest.roots[i];
-        roots[i].bounds = boxes[i];
-    }
-    return {std::move(roots).share(), forest.nodes};
-}
-
 template <class Level>
 Level encodeTlas(const Scene& scene, const Bvh& top, const EncodeOptions& options) {
     return Level(Level::Form::encode(scene, top, options));
 }
 
+DecodedTlas decodeTlas(const TwoLevelForm::Tlas& tlas) {
+    return std::visit([](const auto& level) { return level.decode(); }, tlas);
+}
+
 /// Primitives tree by tree, each with a box that must hold it there: of a triangle that was split, what is of
 /// it in its leaf.
 struct Runs {
+    std::vector<PrimitiveRange> ranges;  // of each tree
     std::vector<uint32_t> primitives;
     std::vector<Aabb> boxes;
     std::vector<uint32_t>
@@ -50,23 +47,22 @@ uint32_t countOfMvh(const Forest& forest, const Node& node) {
     return right != 0 && !run.isLeaf() && run.leftCount() == left ? run.count : 0;
 }
 
-/// Gathers each tree's primitives into one run, which the leaf of the top level then owns. A tree that has
-/// the shape of an MVH, as one that was decoded, keeps its order.
-Runs gatherRuns(const Scene& scene, TwoLevels& levels, std::span<const uint32_t> primitives) {
+/// Gathers each tree's primitives into one run. A tree that has the shape of an MVH, as one that was decoded,
+/// keeps its order.
+Runs gatherRuns(const Scene& scene, const Forest& forest, std::span<const uint32_t> primitives) {
     Runs runs;
     runs.primitives.reserve(primitives.size());
     runs.boxes.reserve(primitives.size());
     std::vector<Node> waiting;
-    std::vector<PrimitiveRange> ranges;
-    for (const Node& root : levels.bottom.roots) {
+    for (const Node& root : forest.roots) {
         const auto first = uint32_t(runs.primitives.size());
         waiting = {root};
         while (!waiting.empty()) {
             const Node node = waiting.back();
             waiting.pop_back();
             if (!node.isLeaf()) {
-                waiting.push_back(levels.bottom.nodes[node.right()]);
-                waiting.push_back(levels.bottom.nodes[node.left()]);
+                waiting.push_back(forest.nodes[node.right()]);
+                waiting.push_back(forest.nodes[node.left()]);
                 continue;
             }
             for (const uint32_t primitive : primitives.subspan(node.first, node.primitiveCount)) {
@@ -79,20 +75,24 @@ Runs gatherRuns(const Scene& scene, TwoLevels& levels, std::span<const uint32_t>
                 runs.boxes.push_back(box);
             }
         }
-        ranges.push_back({first, uint32_t(runs.primitives.size()) - first});
-    }
-    Buffer<Node> nodes(levels.top.nodes.size());
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        const Node& node = levels.top.nodes[i];
-        nodes[i] = node;
-        if (node.isLeaf()) nodes[i] = {node.bounds, ranges[node.first].first, ranges[node.first].count};
+        runs.ranges.push_back({first, uint32_t(runs.primitives.size()) - first});
     }
     runs.ordered.resize(runs.primitives.size());
-    for (size_t i = 0; i < ranges.size(); ++i)
-        runs.ordered[ranges[i].first] = countOfMvh(levels.bottom, levels.bottom.roots[i]);
-    levels.top.nodes = std::move(nodes).share();
-    levels.top.primitives = std::vector<uint32_t>(runs.primitives);
+    for (size_t i = 0; i < runs.ranges.size(); ++i)
+        runs.ordered[runs.ranges[i].first] = countOfMvh(forest, forest.roots[i]);
     return runs;
+}
+
+/// The top level whose leaves own the runs, not the trees over them.
+Bvh withRuns(const Bvh& top, const Runs& runs) {
+    Buffer<Node> nodes(top.nodes.size());
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        const Node& node = top.nodes[i];
+        nodes[i] = node;
+        if (node.isLeaf())
+            nodes[i] = {node.bounds, runs.ranges[node.first].first, runs.ranges[node.first].count};
+    }
+    return {std::move(nodes).share(), std::vector<uint32_t>(runs.primitives)};
 }
 
 void refuseTooDeep(const Bvh& bvh) {
@@ -123,6 +123,30 @@ Bvh within(const Bvh& bvh, const Aabb& meshBounds, uint32_t firstTriangle) {
     return {std::move(nodes).share(), std::move(primitives)};
 }
 
+/// A mesh without a tree: all triangles in one leaf, which is larger than leaves may be.
+Bvh oneLeaf(const Aabb& meshBounds, PrimitiveRange triangles) {
+    AlignedVector<Node> nodes{{meshBounds, 0, triangles.count}, {}};
+    std::vector<uint32_t> primitives(triangles.count);
+    std::iota(primitives.begin(), primitives.end(), triangles.first);
+    return {std::move(nodes), std::move(primitives)};
+}
+
+/// The meshes' trees as BLASes of a form.
+template <class Bottom>
+GatheredTrees gatherMeshes(const PlacedBlases& placed, const Scene& scene, const InstancedBvh& bvh) {
+    std::vector<Bvh> trees;
+    for (size_t i = 0; i < bvh.meshes.size(); ++i) {
+        const SceneMesh& mesh = scene.meshes[i];
+        Bvh tree = within(bvh.meshes[i], placed.meshBounds[i], mesh.firstTriangle);
+        if constexpr (!Bottom::kAreRuns)
+            tree = divideLeaves(tree, Bottom::kMaxLeafSize);  // tree by tree, as new pairs stand behind all
+        else if (tree.primitives.size() != mesh.triangleCount)
+            tree = oneLeaf(placed.meshBounds[i], placed.runs[i]);  // it has parts of triangles
+        trees.push_back(std::move(tree));
+    }
+    return gatherTrees(trees);
+}
+
 }  // namespace
 
 TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options) {
@@ -131,21 +155,22 @@ TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Enco
         makeAlternative<Blases>(size_t(options.blasForm), [&](const auto* type) -> TwoLevelForm {
             using Bottom = std::decay_t<decltype(*type)>;
             Runs runs;
-            if constexpr (Bottom::kAreRuns)
-                runs = gatherRuns(scene, levels, bvh.primitives);
-            else
-                levels.top.primitives =
-                    std::vector<uint32_t>{0};  // a top level of one leaf owns the one BLAS
+            if constexpr (Bottom::kAreRuns) {
+                runs = gatherRuns(scene, levels.bottom, bvh.primitives);
+                levels.top = withRuns(levels.top, runs);
+            } else {
+                // A top level of one leaf owns the one BLAS.
+                levels.top.primitives = std::vector<uint32_t>{0};
+            }
             Tlas tlas = makeAlternative<Tlas>(size_t(options.tlasForm), [&](const auto* top) -> Tlas {
                 return encodeTlas<std::decay_t<decltype(*top)>>(scene, levels.top, options);
             });
-            const DecodedTlas top = std::visit([](const auto& level) { return level.decode(); }, tlas);
+            const RootPlaces places = decodeTlas(tlas).places(Bottom::kAreRuns);
             if constexpr (Bottom::kAreRuns) {
-                Bottom blases = Bottom::encode(top, runs.primitives, runs.boxes, runs.ordered);
+                Bottom blases = Bottom::encode(places, runs.primitives, runs.boxes, runs.ordered);
                 return {std::move(tlas), std::move(blases), std::move(runs.primitives), options.blasSize};
             } else {
-                const Forest forest = withBoxes(levels.bottom, top.leafBoxes(levels.bottom.roots.size()));
-                Bottom blases = Bottom::encode(forest, bvh.primitives.size());
+                Bottom blases = Bottom::encode(levels.bottom, places, bvh.primitives.size(), options);
                 return {std::move(tlas), std::move(blases), bvh.primitives, options.blasSize};
             }
         });
@@ -157,49 +182,49 @@ TwoLevelForm TwoLevelForm::encodeInstances(const Scene& scene, const InstancedBv
                                            const EncodeOptions& options) {
     // Entries follow each other as the leaves do.
     Buffer<Node> top(bvh.top.nodes.size());
-    Buffer<uint32_t> leafOrder(bvh.top.primitives.size());
+    Buffer<uint32_t> order(bvh.top.primitives.size());
     uint32_t entry = 0;
     for (size_t i = 0; i < top.size(); ++i) {
         top[i] = bvh.top.nodes[i];
         if (!top[i].isLeaf()) continue;
-        leafOrder[entry] = bvh.top.primitives[top[i].first];
+        order[entry] = bvh.top.primitives[top[i].first];
         top[i].first = entry++;
     }
-    PlacedBlases placed(scene, std::move(leafOrder).share());
+    const SharedArray<uint32_t> leafOrder = std::move(order).share();
     // As where a tree is cut, a top level of one leaf owns the one entry.
     const Bvh entries{std::move(top).share(), std::vector<uint32_t>{0}};
     Tlas tlas = makeAlternative<Tlas>(size_t(options.tlasForm), [&](const auto* type) -> Tlas {
         return encodeTlas<std::decay_t<decltype(*type)>>(scene, entries, options);
     });
-
-    std::vector<Bvh> trees;
-    for (size_t i = 0; i < bvh.meshes.size(); ++i)
-        trees.push_back(within(bvh.meshes[i], placed.meshBounds[i], scene.meshes[i].firstTriangle));
-    GatheredTrees gathered = gatherTrees(trees);
-    Blases blases = makeAlternative<Blases>(size_t(options.blasForm), [&](const auto* type) -> Blases {
+    return makeAlternative<Blases>(size_t(options.blasForm), [&](const auto* type) -> TwoLevelForm {
         using Bottom = std::decay_t<decltype(*type)>;
-        if constexpr (Bottom::kAreRuns)
-            throw Error(
-                ErrorKind::usage,
-                "--blas-form mvh: the scene has instances, whose meshes are not cut: use ssh or aabb");
-        else
-            return Bottom::encode(gathered.forest, gathered.primitives.size());
+        PlacedBlases placed(scene, leafOrder, Bottom::kAreRuns);
+        GatheredTrees meshes = gatherMeshes<Bottom>(placed, scene, bvh);
+        const auto formOver = [&](Bottom blases, SharedArray<uint32_t> primitives) -> TwoLevelForm {
+            return {std::move(tlas), std::move(blases), std::move(primitives), EncodeOptions{}.blasSize,
+                    std::move(placed)};
+        };
+        const RootPlaces places = placed.places();
+        if constexpr (Bottom::kAreRuns) {
+            Runs runs = gatherRuns(scene, meshes.forest, meshes.primitives);
+            Bottom blases = Bottom::encode(places, runs.primitives, runs.boxes, runs.ordered);
+            return formOver(std::move(blases), std::move(runs.primitives));
+        } else {
+            return formOver(Bottom::encode(meshes.forest, places, meshes.primitives.size(), options),
+                            std::move(meshes.primitives));
+        }
     });
-    return {std::move(tlas), std::move(blases), std::move(gathered.primitives), EncodeOptions{}.blasSize,
-            std::move(placed)};
 }
 
 TwoLevels TwoLevelForm::decodeLevels() const {
-    Bvh top = std::visit([](const auto& level) { return level.decode().bvh; }, tlas_);
-    Forest bottom = std::visit(
-        [&](const auto& level) -> Forest {
-            if constexpr (std::decay_t<decltype(level)>::kAreRuns)
-                return {};  // no form for instances
-            else
-                return level.decode(placed_.meshBounds);
+    DecodedTlas top = decodeTlas(tlas_);
+    return std::visit(
+        [&](const auto& level) -> TwoLevels {
+            const RootPlaces places =
+                isInstanced() ? placed_.places() : top.places(std::decay_t<decltype(level)>::kAreRuns);
+            return {std::move(top.bvh), level.decode(places)};
         },
         blases_);
-    return {std::move(top), std::move(bottom)};
 }
 
 InstancedBvh TwoLevelForm::decodeInstances(const Scene& scene) const {
@@ -214,11 +239,19 @@ InstancedBvh TwoLevelForm::decodeInstances(const Scene& scene) const {
     return bvh;
 }
 
-PlacedBlases::PlacedBlases(const Scene& scene, SharedArray<uint32_t> leafOrder)
+PlacedBlases::PlacedBlases(const Scene& scene, SharedArray<uint32_t> leafOrder, bool areRuns)
     : instances(std::move(leafOrder)), meshBounds(scene.meshes.size()) {
     const std::vector<InstanceEntry> all = instanceEntries(scene);
     for (const uint32_t instance : instances) entries.push_back(all[instance]);
     for (size_t i = 0; i < meshBounds.size(); ++i) meshBounds[i] = scene.boundsOf(scene.meshes[i]);
+    if (areRuns)
+        for (const SceneMesh& mesh : scene.meshes) runs.push_back({mesh.firstTriangle, mesh.triangleCount});
+}
+
+RootPlaces PlacedBlases::places() const {
+    RootPlaces places{{}, meshBounds, std::vector<InsetBox>(meshBounds.size()), runs};
+    for (const Aabb& box : meshBounds) places.frames.emplace_back(box);
+    return places;
 }
 
 Bvh TwoLevelForm::decode() const {
@@ -226,19 +259,13 @@ Bvh TwoLevelForm::decode() const {
         throw Error(
             ErrorKind::usage,
             "the scene has instances, whose trees do not make one: build without --two-level for that");
-    const DecodedTlas top = std::visit([](const auto& level) { return level.decode(); }, tlas_);
-    return std::visit(
-        [&](const auto& level) -> Bvh {
-            if constexpr (std::decay_t<decltype(level)>::kAreRuns)
-                return level.decode(top, primitives_);
-            else
-                return joinLevels({top.bvh, level.decode(top.leafBoxes(level.roots().size()))}, primitives_);
-        },
-        blases_);
+    return joinLevels(decodeLevels(), primitives_);
 }
 
 EncodeOptions TwoLevelForm::options() const {
     EncodeOptions options = std::visit([](const auto& level) { return level.form().options(); }, tlas_);
+    if (const auto* quantized = std::get_if<QuantizedBlases>(&blases_))
+        options.bits = quantized->form().bits();
     options.tlasForm = TlasForm(tlas_.index());
     options.blasForm = BlasForm(blases_.index());
     options.blasSize = blasSize_;

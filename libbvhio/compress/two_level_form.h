@@ -26,13 +26,17 @@ struct PlacedBlases {
     SharedArray<uint32_t> instances;     // which instance of the scene the entry is
     std::vector<InstanceEntry> entries;  // from the scene, so not stored again
     std::vector<Aabb> meshBounds;        // the boxes of BLASes' roots
+    std::vector<PrimitiveRange> runs;    // where BLASes are runs: the meshes' triangles; else empty
 
     PlacedBlases() = default;
-    PlacedBlases(const Scene& scene, SharedArray<uint32_t> leafOrder);
+    PlacedBlases(const Scene& scene, SharedArray<uint32_t> leafOrder, bool areRuns);
     bool empty() const { return entries.empty(); }
     size_t bytes() const {
-        return entries.size() * (sizeof(InstanceEntry) + sizeof(uint32_t)) + meshBounds.size() * sizeof(Aabb);
+        return entries.size() * (sizeof(InstanceEntry) + sizeof(uint32_t)) +
+               meshBounds.size() * sizeof(Aabb) + runs.size() * sizeof(PrimitiveRange);
     }
+    /// Of the BLASes' roots.
+    RootPlaces places() const;
 };
 
 class TwoLevelForm {
@@ -43,10 +47,11 @@ class TwoLevelForm {
 
     /// In the order of TlasForm and BlasForm.
     using Tlas = std::variant<QuantizedTlas, AabbTlas>;
-    using Blases = std::variant<MvhBlases, SshBlases, AabbBlases>;
+    using Blases = std::variant<MvhBlases, SshBlases, QuantizedBlases, AabbBlases>;
 
-    /// Leaves of `tlas` have one entry each: the index of a BLAS, or of an entry of `placed`; or, where
-    /// BLASes are runs, the run of primitives that is one. As in format-spec/two-level.md.
+    /// Leaves of `tlas` have one entry each: the index of a BLAS, or of an entry of `placed`; or, without
+    /// that, where BLASes are runs, the run of primitives that is one. Where both levels are quantized, their
+    /// planes have as many bits. As in format-spec/two-level.md.
     TwoLevelForm(Tlas tlas, Blases blases, SharedArray<uint32_t> primitives, uint32_t blasSize,
                  PlacedBlases placed = {})
         : tlas_(std::move(tlas)),
@@ -68,7 +73,7 @@ class TwoLevelForm {
     bool isInstanced() const { return !placed_.empty(); }
     /// The trees of an instanced scene.
     InstancedBvh decodeInstances(const Scene& scene) const;
-    /// Both levels of an instanced scene, as they lie.
+    /// Both levels as they lie; leaves of the top name BLASes, or entries of `placed`.
     TwoLevels decodeLevels() const;
     const PlacedBlases& placed() const { return placed_; }
     const Tlas& tlas() const { return tlas_; }

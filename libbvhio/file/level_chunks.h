@@ -25,7 +25,7 @@ struct LevelCounts {
     uint64_t references = 0, tlasSlots = 0, blases = 0, blasSlots = 0;
     bool areRuns = false;               // leaves of the top level own primitives, not the index of a BLAS
     Aabb bounds{{0, 0, 0}, {0, 0, 0}};  // of a quantized top level's root
-    uint32_t bits = 0;
+    uint32_t bits = 0;                  // of a quantized level
 };
 
 /// Throws unless a leaf of the top level names a BLAS, or primitives.
@@ -93,10 +93,7 @@ struct LevelChunks<QuantizedTlas> {
 
     /// Node 2 r + 2 is the first half of record r: the root and its unused neighbour come before.
     static uint64_t nodesOffset(uint64_t payloadOffset) { return payloadOffset - 2 * kNodeSize; }
-    static void describe(const QuantizedTlas& tlas, LevelCounts& counts) {
-        counts.bounds = tlas.bounds();
-        counts.bits = tlas.form().bits();
-    }
+    static void describe(const QuantizedTlas& tlas, LevelCounts& counts) { counts.bounds = tlas.bounds(); }
     static uint64_t slots(const QuantizedTlas& tlas) { return 2 * tlas.form().records().size() + 2; }
     static void write(ContainerWriter& writer, const QuantizedTlas& tlas) {
         writeArrayChunk(writer, kTlasType, tlas.form().records());
@@ -104,7 +101,7 @@ struct LevelChunks<QuantizedTlas> {
     static QuantizedTlas read(ChunkSequence& chunks, const LevelCounts& counts) {
         if (counts.references > QuantizedRecord::kMaxReferences)
             chunks.fail(FindingId::treeCounts, "a quantized top level is over at most 2^29 references");
-        OfForm::checkParameters(chunks, counts.bounds, counts.bits);
+        OfForm::checkBounds(chunks, counts.bounds);
         const size_t count = counts.tlasSlots / 2 - 1;
         if (count == 0 && counts.areRuns && counts.references > QuantizedRecord::kMaxLeafSize)
             chunks.fail(FindingId::treeCounts, "a leaf of a quantized top level has at most 128 references");
@@ -152,7 +149,7 @@ struct LevelChunks<AabbBlases> {
 
     static void write(ContainerWriter& writer, const AabbBlases& blases) {
         writeArrayChunk(writer, kRootsType, blases.roots());
-        writeArrayChunk(writer, kBlasType, blases.nodes());
+        writeArrayChunk(writer, kBlasType, blases.form().bvh().nodes);
     }
     static AabbBlases read(ChunkSequence& chunks, const LevelCounts& counts) {
         auto roots = chunks.expectArray<AabbBlases::Root>(kRootsType, counts.blases);
@@ -163,7 +160,7 @@ struct LevelChunks<AabbBlases> {
         for (size_t i = 0; i < nodes.size(); ++i)
             if (!nodes[i].isLeaf())
                 checkChildren(chunks, nodeName(i), int64_t(i), nodes[i].left(), nodes.size());
-        return {std::move(roots), std::move(nodes)};
+        return {std::move(roots), AabbForm({std::move(nodes), {}})};
     }
 };
 
@@ -175,7 +172,7 @@ struct LevelChunks<SshBlases> {
 
     static void write(ContainerWriter& writer, const SshBlases& blases) {
         writeArrayChunk(writer, kRootsType, blases.roots());
-        writeArrayChunk(writer, kBlasType, blases.nodes());
+        writeArrayChunk(writer, kBlasType, blases.form().nodes());
     }
     static SshBlases read(ChunkSequence& chunks, const LevelCounts& counts) {
         if (counts.references > SshNode::kMaxReferences)
@@ -186,7 +183,7 @@ struct LevelChunks<SshBlases> {
         auto nodes = chunks.expectArray<SshNode>(kBlasType, counts.blasSlots);
         for (size_t i = 0; i < nodes.size(); ++i)
             check(chunks, nodes[i], nodeName(i), int64_t(i), nodes.size());
-        return {std::move(roots), std::move(nodes)};
+        return {std::move(roots), SshForm({}, std::move(nodes), {})};
     }
 
   private:
@@ -195,6 +192,39 @@ struct LevelChunks<SshBlases> {
         if (node.side() > 5 || (index < 0 && node.side() != 0))
             chunks.fail(FindingId::nodeField, name + " names side " + std::to_string(node.side()));
         if (!node.isLeaf()) checkChildren(chunks, name, index, node.left(), slots);
+    }
+};
+
+template <>
+struct LevelChunks<QuantizedBlases> {
+    using OfForm = FormChunks<QuantizedForm>;
+    static constexpr uint32_t kCode = OfForm::kCode;
+    static constexpr uint32_t kNodesChunk = kBlasType;
+    static constexpr size_t kNodeSize = sizeof(QuantizedRecord) / 2;
+
+    static void write(ContainerWriter& writer, const QuantizedBlases& blases) {
+        writeArrayChunk(writer, kRootsType, blases.roots());
+        writeArrayChunk(writer, kBlasType, blases.form().records());
+    }
+    static QuantizedBlases read(ChunkSequence& chunks, const LevelCounts& counts) {
+        if (counts.references > QuantizedRecord::kMaxReferences)
+            chunks.fail(FindingId::treeCounts, "quantized BLASes have at most 2^29 references");
+        const size_t count = counts.blasSlots / 2;
+        auto roots = chunks.expectArray<QuantizedRoot>(kRootsType, counts.blases);
+        for (size_t i = 0; i < roots.size(); ++i) {
+            const bool isLeaf = QuantizedRecord::isLeaf(roots[i].word);
+            if (roots[i].more % 8 != 0 || roots[i].more > (isLeaf ? 0xFF : 0))
+                chunks.fail(FindingId::nodeField, blasName(i) + " has " + std::to_string(roots[i].more) +
+                                                      " for the higher bits of a leaf's size");
+            if (!isLeaf && QuantizedRecord::record(roots[i].word) >= count)
+                chunks.fail(FindingId::childIndex,
+                            blasName(i) + " has its children in record " +
+                                std::to_string(QuantizedRecord::record(roots[i].word)) + ": not below " +
+                                std::to_string(count));
+        }
+        auto records = chunks.expectArray<QuantizedRecord>(kBlasType, count);
+        for (size_t i = 0; i < count; ++i) OfForm::checkRecord(chunks, records[i], i, count, counts.bits);
+        return {std::move(roots), QuantizedForm({}, counts.bits, std::move(records), {})};
     }
 };
 

@@ -37,7 +37,8 @@ struct FormChunks<QuantizedForm> {
         const uint32_t bits = reader.u32();
         if (!reader.skipZeros(reader.remaining()))
             chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
-        checkParameters(chunks, bounds, bits);
+        checkBounds(chunks, bounds);
+        checkBits(chunks, bits);
         const size_t count = parameters.nodeSlots / 2 - 1;
         SharedArray<QuantizedRecord> records = chunks.expectArray<QuantizedRecord>(kNodesType, count);
         for (size_t i = 0; i < count; ++i) checkRecord(chunks, records[i], i, count, bits);
@@ -50,9 +51,11 @@ struct FormChunks<QuantizedForm> {
         return form;
     }
 
-    static void checkParameters(const ChunkSequence& chunks, const Aabb& bounds, uint32_t bits) {
+    static void checkBounds(const ChunkSequence& chunks, const Aabb& bounds) {
         if (bounds.isEmpty() || !isFinite(bounds.min) || !isFinite(bounds.max))
             chunks.fail(FindingId::boxNotFinite, "the root's box is not finite or has min > max");
+    }
+    static void checkBits(const ChunkSequence& chunks, uint32_t bits) {
         if (bits < QuantizedRecord::kMinBits || bits > QuantizedRecord::kMaxBits)
             chunks.fail(FindingId::formParameter,
                         "planes of " + std::to_string(bits) + " bits: 5 to 8 are known");

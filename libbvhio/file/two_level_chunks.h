@@ -36,7 +36,8 @@ struct FormChunks<TwoLevelForm> {
                 bytes.u64(TlasChunks::slots(tlas) / 2);
                 for (const Vec3& corner : {counts.bounds.min, counts.bounds.max})
                     for (int axis = 0; axis < 3; ++axis) bytes.f32(corner[axis]);
-                bytes.u32(counts.bits);
+                const bool hasBits = isQuantized(TlasChunks::kCode) || isQuantized(BlasChunks::kCode);
+                bytes.u32(hasBits ? form.options().bits : 0);
                 bytes.zeros(kFormSize - bytes.bytes().size());
                 writeChunk(writer, kFormType, bytes.bytes());
                 if (form.isInstanced()) writeArrayChunk(writer, kEntriesType, form.placed().instances);
@@ -56,12 +57,16 @@ struct FormChunks<TwoLevelForm> {
         counts.references = parameters.references;
         counts.tlasSlots = reader.u64();
         counts.blases = reader.u64();
-        counts.areRuns = blasCode == LevelChunks<MvhBlases>::kCode;
-        if (tlasCode == LevelChunks<QuantizedTlas>::kCode) {
+        const bool areRuns = blasCode == LevelChunks<MvhBlases>::kCode;
+        counts.areRuns = areRuns && !scene.isInstanced();
+        if (isQuantized(tlasCode)) {
             for (Vec3* corner : {&counts.bounds.min, &counts.bounds.max})
                 for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.f32();
-            counts.bits = reader.u32();
+        } else {
+            zero &= reader.skipZeros(sizeof(Aabb));
         }
+        const bool hasBits = isQuantized(tlasCode) || isQuantized(blasCode);
+        if (hasBits) counts.bits = reader.u32();
         counts.blasSlots = parameters.nodeSlots - counts.tlasSlots;
         zero &= reader.skipZeros(reader.remaining());
         if (!zero) chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
@@ -75,24 +80,36 @@ struct FormChunks<TwoLevelForm> {
                                                    " references are no top level of " +
                                                    std::to_string(parameters.nodeSlots) + " slots");
 
+        if (hasBits) FormChunks<QuantizedForm>::checkBits(chunks, counts.bits);
+
         SharedArray<uint32_t> entries;
         LevelCounts bottom = counts;
         if (scene.isInstanced()) {
-            if (counts.blases != scene.instances.size() || counts.areRuns)
+            if (counts.blases != scene.instances.size())
                 chunks.fail(FindingId::treeOfInstances,
                             std::to_string(counts.blases) + " leaves of the top level for " +
-                                std::to_string(scene.instances.size()) + " instances, or BLASes in mvh");
+                                std::to_string(scene.instances.size()) + " instances");
+            if (areRuns && parameters.references != scene.triangles.size())
+                chunks.fail(FindingId::treeCounts, "mvh BLASes of meshes have each triangle once");
             entries = readEntries(chunks, scene);
             counts.references = entries.size();
             bottom.blases = scene.meshes.size();
         }
         auto [tlas, tlasPlace] = readLevel<TwoLevelForm::Tlas>(chunks, tlasCode, counts);
         auto [blases, blasPlace] = readLevel<TwoLevelForm::Blases>(chunks, blasCode, bottom);
-        if (counts.areRuns) checkRuns(chunks, tlas, std::get<MvhBlases>(blases), counts);
+        if (areRuns && (chunks.sound() || !scene.isInstanced())) {
+            std::vector<MvhRun> runs;
+            if (scene.isInstanced())
+                for (const SceneMesh& mesh : scene.meshes)
+                    runs.push_back({mesh.firstTriangle, mesh.triangleCount});
+            else
+                runs = runsOf(tlas);
+            checkRuns(chunks, std::move(runs), std::get<MvhBlases>(blases), counts.blasSlots);
+        }
         // What places BLASes is made of geometry: only that which is sound.
         PlacedBlases placed;
         auto primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
-        if (scene.isInstanced() && chunks.sound()) placed = PlacedBlases(scene, std::move(entries));
+        if (scene.isInstanced() && chunks.sound()) placed = PlacedBlases(scene, std::move(entries), areRuns);
         TwoLevelForm form(std::move(tlas), std::move(blases), std::move(primitives), blasSize,
                           std::move(placed));
         if (scene.isInstanced()) {
@@ -107,28 +124,33 @@ struct FormChunks<TwoLevelForm> {
     }
 
   private:
-    /// Whether the trees over the top level's leaves have as many slots as TREE says, and bytes that serve
-    /// none are zero.
-    static void checkRuns(const ChunkSequence& chunks, const TwoLevelForm::Tlas& tlas,
-                          const MvhBlases& blases, const LevelCounts& counts) {
+    static constexpr bool isQuantized(uint32_t code) { return code == FormChunks<QuantizedForm>::kCode; }
+
+    /// What the leaves of a top level own.
+    static std::vector<MvhRun> runsOf(const TwoLevelForm::Tlas& tlas) {
         const Bvh top = std::visit([](const auto& level) { return level.form().decode(); }, tlas);
+        std::vector<MvhRun> runs;
+        for (const Node& node : top.nodes)
+            if (node.isLeaf()) runs.push_back({node.first, node.primitiveCount});
+        return runs;
+    }
+
+    /// Whether the trees over the runs have as many slots as TREE says, and bytes that serve none are zero.
+    static void checkRuns(const ChunkSequence& chunks, std::vector<MvhRun> runs, const MvhBlases& blases,
+                          uint64_t blasSlots) {
         uint64_t slots = 0;
-        for (const Node& node : top.nodes)
-            if (node.isLeaf()) slots += 2 * (MvhRun{node.first, node.primitiveCount}.leafCount() - 1);
-        if (slots != counts.blasSlots)
+        for (const MvhRun& run : runs) slots += run.slotsBelow();
+        if (slots != blasSlots)
             chunks.fail(FindingId::treeCounts, "the BLASes have " + std::to_string(slots) +
-                                                   " slots, TREE leaves " + std::to_string(counts.blasSlots));
+                                                   " slots, TREE leaves " + std::to_string(blasSlots));
         std::vector<bool> serves(blases.codes().size());
-        std::vector<MvhRun> waiting;
-        for (const Node& node : top.nodes)
-            if (node.isLeaf()) waiting.push_back({node.first, node.primitiveCount});
-        while (!waiting.empty()) {
-            const MvhRun run = waiting.back();
-            waiting.pop_back();
+        while (!runs.empty()) {
+            const MvhRun run = runs.back();
+            runs.pop_back();
             if (run.isLeaf()) continue;
             serves[run.codes()] = true;
-            waiting.push_back(run.left());
-            waiting.push_back(run.right());
+            runs.push_back(run.left());
+            runs.push_back(run.right());
         }
         for (size_t i = 0; i < serves.size(); ++i)
             if (!serves[i] && blases.codes()[i] != 0)

@@ -61,8 +61,45 @@ HWY_NOINLINE void traverseLevels(const Tlas& tlas, const Blases& blases, const S
                       metrics);
 }
 
-/// Visits leaves of a top level over instances: walks through the BLAS there with the ray in its space. The
-/// definition of a hit is in scene/instance.h.
+/// Walks through the BLAS of an instance with the ray in its space. The definition of a hit is in
+/// scene/instance.h. Not inlined: top levels of all forms share it.
+template <class Blases, class Source, class Query, class Metrics>
+HWY_NOINLINE bool traverseInstance(uint32_t number, const Blases& blases, const PlacedBlases& placed,
+                                   const Source& source, const PreparedRay& ray, Query& query,
+                                   Metrics& metrics) {
+    const InstanceEntry& entry = placed.entries[number];
+    size_t offset = blases.nodeBytes();
+    metrics.recordFetched(offset + number * sizeof(InstanceEntry), sizeof(InstanceEntry));
+    metrics.boxesTested(1, AabbForm::kBoxTestCost);
+    const RayInterval inWorld = clipToBox(ray, entry.bounds, query.boxLimit());
+    if (inWorld.isEmpty()) return false;
+
+    const PreparedRay local(objectRay(entry.toObject, ray));
+    const Aabb& box = placed.meshBounds[entry.mesh];
+    offset += placed.entries.size() * sizeof(InstanceEntry);
+    metrics.recordFetched(offset + entry.mesh * sizeof(Aabb), sizeof(Aabb));
+    metrics.boxesTested(1, AabbForm::kBoxTestCost);
+    const RayInterval inMesh = clipToBox(local, box, query.boxLimit());
+    if (local.missesByDefinition() || inMesh.isEmpty()) return false;
+
+    PrimitiveRange leaf{entry.mesh, 1};
+    if constexpr (Blases::kAreRuns) {
+        offset += placed.meshBounds.size() * sizeof(Aabb);
+        metrics.recordFetched(offset + entry.mesh * sizeof(PrimitiveRange), sizeof(PrimitiveRange));
+        leaf = placed.runs[entry.mesh];
+    }
+    using Within = InstanceQuery<Query>;
+    Within within(query, inWorld.enter, entry.primitiveOffset);
+    const typename Blases::Ray blasRay = blases.prepare(local, box);
+    const auto root =
+        blases.root(leaf, BoxEntry{local, box, inMesh.enter, query.boxLimit()}, blasRay, metrics);
+    const Source triangles = source.of(local);
+    return traverseFrom(
+        blases, root, blasRay, within, metrics,
+        TestTriangles<Blases, Source, Within, Metrics>{blases, triangles, local, within, metrics});
+}
+
+/// Visits leaves of a top level over instances.
 template <class Tlas, class Blases, class Source, class Query, class Metrics>
 struct TraverseInstance {
     const Tlas& tlas;
@@ -74,31 +111,8 @@ struct TraverseInstance {
     Metrics& metrics;
 
     HWY_INLINE bool operator()(const Entered<typename Tlas::Cursor>& leaf) const {
-        const uint32_t number = tlas.primitiveRange(leaf.cursor).first;
-        const InstanceEntry& entry = placed.entries[number];
-        metrics.recordFetched(blases.nodeBytes() + number * sizeof(InstanceEntry), sizeof(InstanceEntry));
-        metrics.boxesTested(1, AabbForm::kBoxTestCost);
-        const RayInterval inWorld = clipToBox(ray, entry.bounds, query.boxLimit());
-        if (inWorld.isEmpty()) return false;
-
-        const PreparedRay local(objectRay(entry.toObject, ray));
-        const Aabb& box = placed.meshBounds[entry.mesh];
-        metrics.recordFetched(
-            blases.nodeBytes() + placed.entries.size() * sizeof(InstanceEntry) + entry.mesh * sizeof(Aabb),
-            sizeof(Aabb));
-        metrics.boxesTested(1, AabbForm::kBoxTestCost);
-        const RayInterval inMesh = clipToBox(local, box, query.boxLimit());
-        if (local.missesByDefinition() || inMesh.isEmpty()) return false;
-
-        using Within = InstanceQuery<Query>;
-        Within within(query, inWorld.enter, entry.primitiveOffset);
-        const typename Blases::Ray blasRay = blases.prepare(local, box);
-        const auto root = blases.root({entry.mesh, 1}, BoxEntry{local, box, inMesh.enter, query.boxLimit()},
-                                      blasRay, metrics);
-        const Source triangles = source.of(local);
-        return traverseFrom(
-            blases, root, blasRay, within, metrics,
-            TestTriangles<Blases, Source, Within, Metrics>{blases, triangles, local, within, metrics});
+        return traverseInstance(tlas.primitiveRange(leaf.cursor).first, blases, placed, source, ray, query,
+                                metrics);
     }
 };
 
@@ -120,9 +134,8 @@ HWY_INLINE void traverse(const TwoLevelForm& form, const Source& source, const P
                          Metrics& metrics) {
     std::visit(
         [&](const auto& tlas, const auto& blases) {
-            if constexpr (!std::decay_t<decltype(blases)>::kAreRuns)
-                if (form.isInstanced())
-                    return traverseInstances(tlas, blases, form.placed(), source, ray, query, metrics);
+            if (form.isInstanced())
+                return traverseInstances(tlas, blases, form.placed(), source, ray, query, metrics);
             traverseLevels(tlas, blases, source, ray, query, metrics);
         },
         form.tlas(), form.blases());

@@ -106,8 +106,10 @@ inline BvhxFile inForm(BvhxFile file, std::string_view form, const EncodeOptions
 }
 
 /// A file with its tree in two levels.
-inline BvhxFile inTwoLevels(BvhxFile file, TlasForm tlas, BlasForm blas, uint32_t blasSize) {
+inline BvhxFile inTwoLevels(BvhxFile file, TlasForm tlas, BlasForm blas, uint32_t blasSize,
+                            uint32_t bits = 8) {
     EncodeOptions options;
+    options.bits = bits;
     options.tlasForm = tlas;
     options.blasForm = blas;
     options.blasSize = blasSize;
@@ -130,8 +132,8 @@ inline BvhxFile twoPlaces() {
     return file;
 }
 
-/// The grid in two meshes and five places, BLASes in the ssh form; numbers of geometries have gaps.
-inline BvhxFile gridPlaces() {
+/// The grid in two meshes and five places, below a quantized top level; numbers of geometries have gaps.
+inline BvhxFile gridPlaces(BlasForm blas) {
     BvhxFile file = grid();
     Scene& scene = file.scene;
     scene.meshes = {{.geometryCount = 2}, {.geometryCount = 1}};
@@ -143,7 +145,7 @@ inline BvhxFile gridPlaces() {
     numberInstances(scene);
     EncodeOptions options;
     options.tlasForm = TlasForm::quantized;
-    options.blasForm = BlasForm::ssh;
+    options.blasForm = blas;
     const InstancedBvh trees = buildInstanced(scene, choose(builders(), "builder", "median"), {});
     file.bvh = TwoLevelForm::encodeInstances(scene, trees, options);
     return file;
@@ -176,8 +178,17 @@ inline std::vector<GoldenFile> goldenFiles() {
         {"grid_quantized_over_ssh", inTwoLevels(grid(), TlasForm::quantized, BlasForm::ssh, 9), {}},
         {"grid_aabb_over_mvh", inTwoLevels(grid(), TlasForm::aabb, BlasForm::mvh, 40), {}},
         {"grid_aabb_over_aabb", inTwoLevels(grid(), TlasForm::aabb, BlasForm::aabb, 9), {}},
+        {"two_triangles_over_quantized",
+         inTwoLevels(twoTriangles(), TlasForm::aabb, BlasForm::quantized, 2),
+         {}},
+        {"grid_aabb_over_quantized", inTwoLevels(grid(), TlasForm::aabb, BlasForm::quantized, 20), {}},
+        {"grid_quantized_over_quantized_6",
+         inTwoLevels(grid(), TlasForm::quantized, BlasForm::quantized, 20, 6),
+         {}},
         {"two_triangles_instances", twoPlaces(), {}},
-        {"grid_instances_zstd", gridPlaces(), {.codec = "zstd"}},
+        {"grid_instances_zstd", gridPlaces(BlasForm::ssh), {.codec = "zstd"}},
+        {"grid_instances_quantized", gridPlaces(BlasForm::quantized), {}},
+        {"grid_instances_mvh", gridPlaces(BlasForm::mvh), {}},
         {"one_leaf", oneLeaf(), {}},
         {"split_triangle", splitTriangle(), {}}};
 }

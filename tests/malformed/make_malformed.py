@@ -504,6 +504,26 @@ simple(3004, "two_level_no_such_blas_quantized", lambda f: f.patch("TLAS", leaf_
 two_level_case(4001, "nan_root", "FORM", 32, "f", float("nan"), base=OVER_MVH)
 simple(4003, "two_level_mvh_cuts", lambda f: f.patch("BLAS", next(i for i, b in enumerate(f["BLAS"].raw) if b), "B", 0xB1), OVER_MVH)
 
+# The same with quantized BLASes. two_triangles_over_quantized: a top level of one leaf in aabb, one BLAS of one record
+OVER_QUANTIZED = "two_triangles_over_quantized"
+for kind in ("ROOT", "BLAS"):
+    simple(2005, "two_level_quantized_size_of_" + kind.lower(), lambda f, k=kind: f.replace(k, f[k].raw + bytes(8)), OVER_QUANTIZED)
+    simple(2002, "two_level_quantized_no_" + kind.lower(), lambda f, k=kind: f.chunks.remove(f[k]), OVER_QUANTIZED)
+two_level_case(2006, "bits_of_none", "FORM", 56, "I", 8)
+two_level_case(2006, "box_above_quantized", "FORM", 52, "f", 1.0, base=OVER_QUANTIZED)
+simple(2011, "two_level_quantized_references", lambda f: f.patch("TREE", 16, "Q", 2**29 + 1), OVER_QUANTIZED)
+two_level_case(2019, "quantized_bits_4", "FORM", 56, "I", 4, base=OVER_QUANTIZED)
+two_level_case(2019, "quantized_bits_9", "FORM", 56, "I", 9, base=OVER_QUANTIZED)
+two_level_case(3002, "quantized_root", "ROOT", 0, "I", 1, base=OVER_QUANTIZED)
+two_level_case(3002, "quantized_own_record", "BLAS", 8, "I", 0, base=OVER_QUANTIZED)
+two_level_case(3003, "quantized_no_parent", "ROOT", 0, "I", 1 << 31 | 1 << 29, base=OVER_QUANTIZED)
+two_level_case(3005, "quantized_same_entry", "BLAS", 12, "I", 1 << 31, base=OVER_QUANTIZED)
+two_level_case(3010, "quantized_size_of_inner_root", "ROOT", 4, "I", 8, base=OVER_QUANTIZED)
+two_level_case(3010, "quantized_root_reserved", "ROOT", 0, "2I", 1 << 31 | 1 << 29, 1, base=OVER_QUANTIZED)
+two_level_case(3010, "quantized_root_size_129", "ROOT", 0, "2I", 1 << 31, 0x100, base=OVER_QUANTIZED)
+simple(3010, "two_level_quantized_inset", lambda f: f.patch("BLAS", 0, "B", 64), "grid_quantized_over_quantized_6")
+simple(4003, "two_level_quantized_plane", lambda f: f.patch("BLAS", 0, "B", 255), OVER_QUANTIZED)
+
 # --- instances. two_triangles_instances: one mesh of two triangles in two places, both levels in aabb
 def instance_case(clause, name, chunk, offset, fmt, *values):
     simple(clause, "instances_" + name, lambda f: f.patch(chunk, offset, fmt, *values), "two_triangles_instances")
@@ -532,7 +552,6 @@ instance_case(2020, "in_aabb", "TREE", 0, "4s", b"aabb")
 instance_case(2020, "in_ssh", "TREE", 0, "4s", b"ssh ")
 instance_case(2020, "with_draco", "SCEN", 32, "I", 1)
 simple(2020, "instances_one_leaf", lambda f: f.patch("FORM", 16, "2Q", 2, 1), "two_triangles_instances")
-instance_case(2020, "in_mvh", "FORM", 4, "4s", b"mvh ")
 instance_case(3001, "slot_1", "TLAS", NODE + 4, "f", 1)
 instance_case(3002, "top_child", "TLAS", FIRST, "I", 6)
 instance_case(3002, "blas_child", "ROOT", 0, "I", 2)
@@ -555,6 +574,14 @@ instance_case(4003, "triangle_outside_leaf", "BLAS", 12, "f", 0.5)
 instance_case(4007, "nan", "INST", 12, "f", float("nan"))
 instance_case(4007, "infinite", "INST", 0, "f", float("inf"))
 instance_case(4007, "flat", "INST", 0, "f", 0)
+# Meshes in mvh: PRIM has each triangle once, and what is below a root follows from the number of a mesh's
+IN_MVH = "grid_instances_mvh"
+simple(2006, "instances_mvh_byte_of_no_node", lambda f: f.patch("BLAS", 0, "B", 1), IN_MVH)
+simple(2011, "instances_mvh_references", lambda f: f.patch("TREE", 16, "Q", struct.unpack_from("<Q", f["TREE"].raw, 16)[0] + 1), IN_MVH)
+simple(2011, "instances_mvh_slots", lambda f: f.patch("TREE", 8, "Q", struct.unpack_from("<Q", f["TREE"].raw, 8)[0] - 2), IN_MVH)
+simple(3006, "instances_mvh_other_mesh", lambda f: f.patch("PRIM", 0, "I", struct.unpack_from("<I", f["PRIM"].raw, len(f["PRIM"].raw) - 4)[0]), IN_MVH)
+simple(4003, "instances_mvh_cuts", lambda f: f.patch("BLAS", next(i for i, b in enumerate(f["BLAS"].raw) if b), "B", 0xB1), IN_MVH)
+simple(4003, "instances_quantized_plane", lambda f: f.patch("BLAS", 0, "B", 255), "grid_instances_quantized")
 simple(4007, "instances_parallel", lambda f: f.patch("INST", 0, "12f", 1, 2, 3, 0, 2, 4, 6, 0, 0, 0, 1, 0), "two_triangles_instances")
 
 simple(4004, "nan_vertex", lambda f: f.patch("VERT", 4, "f", float("nan")))

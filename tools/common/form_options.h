@@ -36,10 +36,14 @@ class QuantizedOptions {
 
     /// Adds what was given to the options for `form`, and fills in the rest. For after TwoLevelOptions.
     void addTo(EncodeOptions& options, std::string_view form) {
-        const bool isTop = form == TwoLevelForm::kName && options.tlasForm == TlasForm::quantized;
-        if (form == QuantizedForm::kName || isTop) {
+        const bool isLevel = form == TwoLevelForm::kName && (options.tlasForm == TlasForm::quantized ||
+                                                             options.blasForm == BlasForm::quantized);
+        if (form == QuantizedForm::kName || isLevel) {
             if (bits_ == 0) bits_ = options.bits;
             options.bits = bits_;
+        } else if (form == TwoLevelForm::kName) {
+            if (bits_ != 0)
+                throw Error(ErrorKind::usage, "--bits: neither level is in the quantized form: leave it out");
         } else {
             refuseForOtherForm({{"--bits", bits_ != 0}}, QuantizedForm::kName, form);
         }
@@ -78,7 +82,8 @@ class TwoLevelOptions {
 
     /// Whether a size to cut by was given.
     bool cuts() const { return wasSizeGiven_; }
-    /// Chooses BLASes for the meshes of instances, which the default cannot hold, where none were asked for.
+    /// Chooses BLASes for the meshes of instances, where none were asked for: they are large, and mvh is slow
+    /// then.
     void chooseForInstances(EncodeOptions& options) {
         if (wasBlasFormGiven_) return;
         options.blasForm = BlasForm::ssh;

@@ -94,6 +94,26 @@ TEST(TwoLevelForm, countsWhatOneTreeCounts) {
     EXPECT_GT(b.records, a.records);  // roots
 }
 
+// A quantized tree is the same in one level and in two: what is found below the cut must go on from the
+// insets and the places above it, not from rounded boxes.
+TEST(QuantizedBlases, goOnWhereTheTopEnds) {
+    const Scene scene = soup();
+    const Bvh bvh = builders()[0].function(scene, {.costs = {}, .maxLeafSize = 7});
+    const std::vector<Ray> rays = test::awkwardRays(scene, 1, 10);
+    for (const uint32_t bits : {5u, 8u}) {
+        EncodeOptions options = optionsFor(TlasForm::quantized, BlasForm::quantized, 9);
+        options.bits = bits;
+        const EncodedBvh one = QuantizedForm::encode(scene, bvh, options);
+        const EncodedBvh two = TwoLevelForm::encode(scene, bvh, options);
+        EXPECT_EQ(boundsHash(decode(two)), boundsHash(decode(one)));
+        const TraversalCounts a = Tracer(scene, one).measure(rays, Query::closest).counts;
+        const TraversalCounts b = Tracer(scene, two).measure(rays, Query::closest).counts;
+        EXPECT_EQ(a.boxTests, b.boxTests);
+        EXPECT_EQ(a.triangleTests, b.triangleTests);
+        EXPECT_EQ(a.stackOperations, b.stackOperations);
+    }
+}
+
 // Boxes that rays see must be those that decode tells: a byte too far and a triangle is lost, so a code that
 // cuts what its leaf needs must not be chosen.
 TEST(MvhBlases, everyCodeLeavesTheOtherAxesAlone) {

@@ -91,8 +91,13 @@ void encodeInstances(BvhxFile& file, std::string_view form, const EncodeOptions&
     if (cuts)
         throw Error(ErrorKind::usage,
                     "--blas-size: the scene has instances, whose meshes are BLASes whole: leave it out");
-    if (optionsOf(file.bvh) == options) return;
-    const InstancedBvh trees = std::get<TwoLevelForm>(file.bvh).decodeInstances(file.scene);
+    const EncodeOptions given = optionsOf(file.bvh), exact = exactLevels();
+    if (given == options) return;
+    InstancedBvh trees = std::get<TwoLevelForm>(file.bvh).decodeInstances(file.scene);
+    if (given != exact && options != exact)
+        trees = mapTrees(file.scene, trees, [](const Scene& scene, const Bvh& tree, bool) {
+            return withExactBoxes(scene, tree);
+        });
     file.bvh = TwoLevelForm::encodeInstances(file.scene, trees, options);
     dropChunksThatDoNotSurvive(file, Change::reordered);
 }

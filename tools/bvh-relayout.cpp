@@ -20,6 +20,9 @@ class LayoutChoice {
   public:
     explicit LayoutChoice(CommandLine& line) : line_(line) {
         line.choice("--layout", name_, namedValues(layouts()), "the order of the nodes");
+        line.choice("--probability", probability_, kProbabilities, "how likely a node is to be entered");
+        line.number("--smoothing", smoothing_, 0, 1e6f,
+                    "visits: how many random rays count beside each recorded one");
         line.number("--line-size", lineSize_, 16, 1u << 20, "bytes of a cache line");
         line.number("--record-bytes", recordBytes_, 1, 1u << 10,
                     "bytes that a pair of siblings takes in the form to come");
@@ -29,11 +32,20 @@ class LayoutChoice {
         line.number("--pointer-bits", pointerBits_, 2, 20, "bits of a reference within a cluster");
     }
 
+    /// Whether weights are visits.
+    bool byVisits() const { return probability_ == kProbabilities[1].name; }
+    float smoothing() const { return smoothing_; }
+
     /// The chosen layout, with what was given added to the options, and the rest filled in. Throws
     /// Error{usage} for what it has no use for.
     const Layout& choose(LayoutOptions& options) {
         const Layout& layout = bvhio::choose(layouts(), "layout", name_);
         refuseUseless(layout);
+        if (probability_.empty() && (layout.function.uses & kUsesWeights) != 0)
+            probability_ = kProbabilities[0].name;
+        if (!byVisits() && smoothing_ >= 0)
+            throw Error(ErrorKind::usage, "--smoothing: is for --probability visits: leave it out");
+        if (byVisits() && smoothing_ < 0) smoothing_ = kSmoothing;
         take(layout, kUsesLines, lineSize_, options.lineSize, 0u);
         take(layout, kUsesLines, recordBytes_, options.recordBytes, 0u);
         take(layout, kUsesThreshold, threshold_, options.threshold, -1.0f);
@@ -45,11 +57,9 @@ class LayoutChoice {
   private:
     void refuseUseless(const Layout& layout) const {
         static constexpr std::pair<std::string_view, uint32_t> kUses[] = {
-            {"--line-size", kUsesLines},
-            {"--record-bytes", kUsesLines},
-            {"--threshold", kUsesThreshold},
-            {"--treelet-size", kUsesTreeletSize},
-            {"--pointer-bits", kUsesPointerBits}};
+            {"--probability", kUsesWeights},      {"--line-size", kUsesLines},
+            {"--record-bytes", kUsesLines},       {"--threshold", kUsesThreshold},
+            {"--treelet-size", kUsesTreeletSize}, {"--pointer-bits", kUsesPointerBits}};
         const std::vector<std::string> given = line_.given();
         for (const auto& [name, uses] : kUses)
             if ((layout.function.uses & uses) == 0 &&
@@ -65,10 +75,17 @@ class LayoutChoice {
         option = given;
     }
 
+    inline static const std::vector<NamedValue> kProbabilities = {
+        {"area", "the default: by the areas of boxes"},
+        {"visits", "by the visits that bvh-trace --record-visits counted"},
+    };
+    // The least at which a view from the other side loses at most 2% against areas.
+    static constexpr float kSmoothing = 2;
+
     CommandLine& line_;
-    std::string name_{layouts()[0].name};
+    std::string name_{layouts()[0].name}, probability_;
     uint32_t lineSize_ = 0, recordBytes_ = 0, treeletSize_ = 0, pointerBits_ = 0;
-    float threshold_ = -1;
+    float threshold_ = -1, smoothing_ = -1;
 };
 
 ExitCode relayout(CommandLine& line) {
@@ -78,11 +95,19 @@ ExitCode relayout(CommandLine& line) {
     const Layout& layout = choice.choose(options);
 
     BvhxFile file = pass.read();
+    if (choice.byVisits() && file.visits.empty())
+        throw Error(ErrorKind::usage,
+                    "--probability visits: the container has none: record them by bvh-trace --record-visits");
     pass.stages().begin("relayout");
+    std::vector<uint32_t> visits;
     changeTrees(file, [&](const Scene&, const Bvh& bvh, bool) {
-        return applyNodeOrder(bvh, layout.function(bvh, options).order);
+        if (choice.byVisits()) options.weights = weightsByVisits(bvh, file.visits, choice.smoothing());
+        const NodeOrder order = layout.function(bvh, options).order;
+        if (!file.visits.empty()) visits = inNodeOrder(file.visits, order);
+        return applyNodeOrder(bvh, order);
     });
     dropChunksThatDoNotSurvive(file, Change::reordered);
+    if (!visits.empty()) file.visits = std::move(visits);
     pass.finish(file, {}, "relayout");
     return ExitCode::done;
 }

@@ -15,6 +15,7 @@
 #include "trace/ray_sets.h"
 #include "trace/shaded_image.h"
 #include "trace/trace_report.h"
+#include "trace/visits.h"
 
 using namespace bvhio;
 
@@ -29,7 +30,7 @@ const ToolInfo kTool = {
 };
 
 struct Options {
-    std::string rays, rayOrder, resolution, camera, saveRays, hits, image, heatmap, compare;
+    std::string rays, rayOrder, resolution, camera, saveRays, recordVisits, hits, image, heatmap, compare;
     RaySetOptions set;
     bool anyHit = false;
     uint32_t repeat = 3;
@@ -55,6 +56,8 @@ void declare(CommandLine& line, Options& options) {
     line.text("--compare", "OTHER.bvhx", options.compare, "trace this too; exit 7 when hits differ");
     line.number("--tolerance", options.tolerance, 0, 1, "t may differ by this part of it, in --compare");
     line.text("--save-rays", "FILE.rays", options.saveRays, "write the rays");
+    line.text("--record-visits", "FILE.bvhx", options.recordVisits,
+              "write the container with how many rays visit each pair of nodes");
     line.text("--hits", "FILE.hits", options.hits, "write the hits");
     line.text("--image", "FILE.png", options.image, "draw the scene, shaded");
     line.text("--heatmap", "FILE.png", options.heatmap, "draw what each pixel's rays cost: NC + TC");
@@ -122,16 +125,36 @@ bool differs(const Options& options, const BvhxFile& other, std::span<const Ray>
     return comparison.differing > 0;
 }
 
+/// The container with its tree in the aabb form, and the visits of its pairs.
+BvhxFile withVisits(const BvhxFile& file, std::span<const Ray> rays, const CommandLine& line, bool anyHit) {
+    BvhxFile recorded = file;
+    if (!std::holds_alternative<AabbForm>(file.bvh)) {
+        recorded.bvh = AabbForm(decode(file.bvh));
+        dropChunksThatDoNotSurvive(recorded, Change::reordered);
+    }
+    recorded.visits = countVisits(file.scene, std::get<AabbForm>(recorded.bvh).bvh(), rays,
+                                  anyHit ? Query::any : Query::closest);
+    // What else was asked for leaves no trace in the file.
+    Report all = line.options(), options = Report::object();
+    for (const char* name : {"rays", "count", "resolution", "seed", "camera", "any-hit"})
+        options[name] = all[name];
+    recorded.provenance.push_back({line.tool(), std::string(toolsVersion()), jsonText(options)});
+    return recorded;
+}
+
 ExitCode traceRays(CommandLine& line) {
     Options options;
     declare(line, options);
     QueryTool query(line);
     options.set.resolution = parseResolution(options.resolution);
     if (!options.camera.empty()) options.set.camera = parseCamera(options.camera);
-    OptionalOutput raysOutput(options.saveRays), hitsOutput(options.hits), image(options.image),
-        heatmap(options.heatmap);
+    OptionalOutput raysOutput(options.saveRays), visitsOutput(options.recordVisits), hitsOutput(options.hits),
+        image(options.image), heatmap(options.heatmap);
 
     const BvhxFile file = query.read();
+    if (visitsOutput && file.scene.isInstanced())
+        throw Error(ErrorKind::usage,
+                    "--record-visits: the scene has instances: build without --two-level to record visits");
     query.stages().begin("prepare");
     const Tracer tracer(file.scene, file.bvh);
     const ClosestHits closestHits = [&](std::span<const Ray> rays) {
@@ -175,6 +198,9 @@ ExitCode traceRays(CommandLine& line) {
 
     query.stages().begin("write");
     if (raysOutput) raysOutput.write(encodeRays(set.rays));
+    if (visitsOutput)
+        visitsOutput.write(
+            [&](std::ostream& out) { writeBvhx(out, withVisits(file, set.rays, line, options.anyHit), {}); });
     if (hitsOutput) hitsOutput.write(encodeHits(records));
     if (image) image.write(encodePng(shadedImage(file.scene, set.camera, set.resolution, closestHits)));
     if (heatmap) {

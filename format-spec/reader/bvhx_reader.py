@@ -26,7 +26,7 @@ CRITICAL = 1
 
 # Known types in file order: flags.
 KNOWN = {"SCEN": 7, "VERT": 7, "TRIS": 7, "DRCO": 7, "GEOM": 7, "SRCP": 7, "MESH": 7, "INST": 7, "TREE": 1, "ENTR": 1, "FORM": 1, "NODE": 1, "TLAS": 1, "ROOT": 1, "BLAS": 1, "PRIM": 1,
-         "TOPO": 1, "PROV": 6}
+         "TOPO": 1, "VISI": 0, "PROV": 6}
 
 
 class Rejected(Exception):
@@ -747,7 +747,17 @@ def read_tree(chunks, scene):
     else:
         nodes, primitives = FORMS[form](chunks, slots, references)
     check_tree(nodes, primitives, slots, references, depth, scene)
+    if form == b"aabb" and chunks.next_is("VISI"):
+        summary["rays"] = check_visits(struct.unpack(f"<{slots // 2}I", chunks.expect("VISI", 2 * slots)), nodes)
     return summary
+
+
+def check_visits(visits, nodes):
+    """Returns how many rays there were."""
+    for index, node in enumerate(nodes):
+        first, count = node[6:8]
+        reject_if(index != 1 and count == 0 and visits[first // 2] > visits[index // 2], 2021, f"visits of pair {first}")
+    return visits[0]
 
 
 def read_provenance(raw):

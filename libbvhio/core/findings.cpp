@@ -49,6 +49,7 @@ std::span<const FindingKind> findingKinds() {
         {formParameter, invalid, "a parameter of the form is out of range"},
         {treeOfInstances, invalid,
          "the tree's form or the geometry's encoding is none for a scene with instances"},
+        {visits, invalid, "a pair of nodes has more visits than the one that holds its parent"},
 
         {unusedSlot, invalid, "the unused node slot beside the root is not zero"},
         {childIndex, invalid, "an inner node's children are out of range, at an odd index or not behind it"},

@@ -54,6 +54,7 @@ enum class FindingId : uint32_t {
     instances = 2018,
     formParameter = 2019,
     treeOfInstances = 2020,
+    visits = 2021,
 
     unusedSlot = 3001,
     childIndex = 3002,

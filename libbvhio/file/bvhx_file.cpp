@@ -8,6 +8,7 @@
 #include "file/form_chunks.h"
 #include "file/scene_chunks.h"
 #include "file/utf8.h"
+#include "file/visit_chunk.h"
 
 namespace bvhio {
 namespace {
@@ -54,10 +55,13 @@ BvhxFile readContent(ContainerReader& container, std::vector<Finding>* collected
     ChunkSequence chunks(container, collected);
     Scene scene = readScene(chunks);
     StoredTree tree = readTree(chunks, scene);
+    SharedArray<uint32_t> visits;
+    if (const auto* aabb = std::get_if<AabbForm>(&tree.bvh)) visits = readVisits(chunks, aabb->bvh());
     std::vector<ProvenanceEntry> provenance;
     if (chunks.nextIs(kProvenanceType)) provenance = readProvenance(chunks);
     chunks.expect(kEndType, ChunkSequence::kAnySize);
-    return {std::move(scene), std::move(tree.bvh), tree.costs, std::move(provenance), chunks.takeUnknown()};
+    return {std::move(scene),      std::move(tree.bvh),  tree.costs,
+            std::move(provenance), chunks.takeUnknown(), std::move(visits)};
 }
 
 BvhxFile readBvhx(const std::filesystem::path& path) {
@@ -79,6 +83,7 @@ std::optional<EncodedBvh> writeBvhx(std::ostream& out, const BvhxFile& file, con
     std::optional<EncodedBvh> refitted;
     if (!stored.draco.empty()) refitted = refitTo(file.bvh, stored.scene);
     writeTree(writer, refitted ? *refitted : file.bvh, file.costs, stored.scene, options.nodes);
+    if (!file.visits.empty()) writeArrayChunk(writer, kVisitsType, file.visits);
     for (const UnknownChunk& chunk : file.unknownChunks) writer.write(chunk.type, chunk.flags, chunk.payload);
     if (!file.provenance.empty()) writeProvenance(writer, file.provenance);
     writer.finish();
@@ -86,6 +91,7 @@ std::optional<EncodedBvh> writeBvhx(std::ostream& out, const BvhxFile& file, con
 }
 
 void dropChunksThatDoNotSurvive(BvhxFile& file, Change change) {
+    file.visits = {};
     const uint32_t needed = change == Change::reordered ? kSurvivesReorder : kSurvivesTopologyChange;
     std::erase_if(file.unknownChunks, [&](const UnknownChunk& chunk) { return (chunk.flags & needed) == 0; });
 }

@@ -35,6 +35,9 @@ struct BvhxFile {
     SahCosts costs;  // what the tree was built for
     std::vector<ProvenanceEntry> provenance;
     std::vector<UnknownChunk> unknownChunks;
+    /// How many of some rays fetched each pair of nodes (trace/visits.h), for a tree in the aabb form; empty
+    /// where that was not recorded.
+    SharedArray<uint32_t> visits{};
 };
 
 enum class GeometryEncoding { raw, draco };
@@ -71,9 +74,9 @@ std::optional<EncodedBvh> writeBvhx(std::ostream& out, const BvhxFile& file, con
 /// What a pass did to a tree.
 enum class Change { reordered, topologyChanged };
 
-/// Drops the unknown chunks that are wrong after such a pass, as their flags say; a pass calls it before it
-/// writes. A change of form counts as a reorder; a restructured tree may be reordered too, so a pass that
-/// does both calls it for both.
+/// Drops visits, and the unknown chunks that are wrong after such a pass, as their flags say; a pass calls it
+/// before it writes. A change of form counts as a reorder; a restructured tree may be reordered too, so a
+/// pass that does both calls it for both.
 void dropChunksThatDoNotSurvive(BvhxFile& file, Change change);
 
 }  // namespace bvhio

@@ -24,6 +24,7 @@ std::span<const ChunkKind> chunkKinds() {
         {kBlasType, kCritical, "nodes of the bottom level"},
         {kPrimitivesType, kCritical, "primitives"},
         {kTopologyType, kCritical, "topology"},
+        {kVisitsType, 0, "visits"},
         {kProvenanceType, kSurvivesReorder | kSurvivesTopologyChange, "provenance"},
         {kEndType, kCritical, "end"},
     };

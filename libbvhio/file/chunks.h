@@ -27,6 +27,7 @@ inline constexpr uint32_t kRootsType = chunkType("ROOT");
 inline constexpr uint32_t kBlasType = chunkType("BLAS");
 inline constexpr uint32_t kPrimitivesType = chunkType("PRIM");
 inline constexpr uint32_t kTopologyType = chunkType("TOPO");
+inline constexpr uint32_t kVisitsType = chunkType("VISI");
 
 /// A row of the table of known chunks.
 struct ChunkKind {

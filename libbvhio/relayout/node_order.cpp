@@ -47,4 +47,10 @@ Bvh applyNodeOrder(const Bvh& bvh, const NodeOrder& order) {
     return {std::move(nodes), std::move(primitives)};
 }
 
+std::vector<uint32_t> inNodeOrder(std::span<const uint32_t> ofPairs, const NodeOrder& order) {
+    std::vector<uint32_t> moved{ofPairs[0]};
+    for (const uint32_t left : order) moved.push_back(ofPairs[left / 2]);
+    return moved;
+}
+
 }  // namespace bvhio

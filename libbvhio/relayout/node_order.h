@@ -1,6 +1,7 @@
 // An order of a tree's nodes in memory, and what puts a tree in that order.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/bvh.h"
@@ -16,5 +17,9 @@ using NodeOrder = std::vector<uint32_t>;
 /// Leaves own primitives in the order of a depth-first walk, left first, so that the primitives of any
 /// subtree are one run; a leaf's primitives keep theirs. `order` must be as documented for NodeOrder.
 Bvh applyNodeOrder(const Bvh& bvh, const NodeOrder& order);
+
+/// What is known of each pair, by half the index of its left node, for the tree with its pairs in the given
+/// order.
+std::vector<uint32_t> inNodeOrder(std::span<const uint32_t> ofPairs, const NodeOrder& order);
 
 }  // namespace bvhio

@@ -1,5 +1,7 @@
 #include "relayout/pair_weights.h"
 
+#include <algorithm>
+
 namespace bvhio {
 
 PairWeights weightsByArea(const Bvh& bvh) {
@@ -10,6 +12,14 @@ PairWeights weightsByArea(const Bvh& bvh) {
         const Node& node = bvh.nodes[i];
         if (i != 1 && !node.isLeaf()) weights[node.left() / 2] = halfArea(node.bounds) / root;
     }
+    return weights;
+}
+
+PairWeights weightsByVisits(const Bvh& bvh, std::span<const uint32_t> visits, float smoothing) {
+    PairWeights weights = weightsByArea(bvh);
+    if (visits[0] == 0) return weights;
+    const double lines = std::max(double(smoothing), 1e-6) * visits[0];
+    for (size_t i = 0; i < weights.size(); ++i) weights[i] = visits[i] + lines * weights[i];
     return weights;
 }
 

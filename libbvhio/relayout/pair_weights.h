@@ -16,4 +16,9 @@ using PairWeights = std::vector<double>;
 /// areas. 1 where the root has no area.
 PairWeights weightsByArea(const Bvh& bvh);
 
+/// Visits of a tree's pairs, which were counted over visits[0] rays, and `smoothing` times as many as random
+/// lines that meet the root's box would make: a view that was not recorded is not forgotten. At the least so
+/// few that they only decide between pairs which no ray visited.
+PairWeights weightsByVisits(const Bvh& bvh, std::span<const uint32_t> visits, float smoothing);
+
 }  // namespace bvhio

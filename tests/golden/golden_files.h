@@ -69,6 +69,18 @@ inline BvhxFile grid() {
          {chunkType("xTRE"), kSurvivesReorder, payload("of the tree")}}};
 }
 
+/// A file with visits that five rays could have made: fewer with each level down.
+inline BvhxFile visited(BvhxFile file) {
+    const Bvh& bvh = std::get<AabbForm>(file.bvh).bvh();
+    std::vector<uint32_t> visits(bvh.nodes.size() / 2, 5);
+    for (size_t i = 0; i < bvh.nodes.size(); ++i)
+        if (i != 1 && !bvh.nodes[i].isLeaf())
+            visits[bvh.nodes[i].left() / 2] =
+                visits[i / 2] - (i == 0 ? 2 : std::min(visits[i / 2], uint32_t(i % 2)));
+    file.visits = std::move(visits);
+    return file;
+}
+
 /// One triangle in the root.
 inline BvhxFile oneLeaf() {
     Scene scene;
@@ -189,6 +201,9 @@ inline std::vector<GoldenFile> goldenFiles() {
         {"grid_instances_zstd", gridPlaces(BlasForm::ssh), {.codec = "zstd"}},
         {"grid_instances_quantized", gridPlaces(BlasForm::quantized), {}},
         {"grid_instances_mvh", gridPlaces(BlasForm::mvh), {}},
+        {"two_triangles_visits", visited(twoTriangles()), {}},
+        {"grid_visits_zstd", visited(grid()), {.codec = "zstd"}},
+        {"grid_shuffled_visits_topology", visited(shuffledGrid()), {.nodes = NodeEncoding::topology}},
         {"one_leaf", oneLeaf(), {}},
         {"split_triangle", splitTriangle(), {}}};
 }

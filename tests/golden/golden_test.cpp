@@ -71,7 +71,8 @@ TEST(Golden, workedBytesOfThePagesAreTrue) {
                                      {"ssh", "_ssh"},
                                      {"mvh", "_mvh"},
                                      {"two-level", "_two_level"},
-                                     {"instances", "_instances"}}) {
+                                     {"instances", "_instances"},
+                                     {"visits", "_visits"}}) {
         std::string file = ofTwoTriangles(form);
         std::istringstream text(fileText("format-spec/" + page + ".md"));
         int quoted = 0;

@@ -524,6 +524,16 @@ two_level_case(3010, "quantized_root_size_129", "ROOT", 0, "2I", 1 << 31, 0x100,
 simple(3010, "two_level_quantized_inset", lambda f: f.patch("BLAS", 0, "B", 64), "grid_quantized_over_quantized_6")
 simple(4003, "two_level_quantized_plane", lambda f: f.patch("BLAS", 0, "B", 255), OVER_QUANTIZED)
 
+# --- visits. two_triangles_visits: five rays, three of which fetched the only pair
+VISITS = "two_triangles_visits"
+simple(2002, "visits_before_primitives", lambda f: f.chunks.insert(f.index("PRIM"), f.chunks.pop(f.index("VISI"))), VISITS)
+simple(2002, "visits_of_ssh", lambda f: f.chunks.append(Chunk(b"VISI", 0, struct.pack("<2I", 5, 3))), "two_triangles_ssh")
+simple(2003, "visits_twice", lambda f: f.chunks.append(Chunk(b"VISI", 0, f["VISI"].raw)), VISITS)
+simple(2004, "visits_that_survive", lambda f: set_field(f["VISI"], flags=2), VISITS)
+simple(2005, "visits_too_few", lambda f: f.replace("VISI", f["VISI"].raw[:-4]), VISITS)
+simple(2005, "visits_too_many", lambda f: f.replace("VISI", f["VISI"].raw + bytes(4)), VISITS)
+simple(2021, "visits_above_parent", lambda f: f.patch("VISI", 4, "I", 6), VISITS)
+
 # --- instances. two_triangles_instances: one mesh of two triangles in two places, both levels in aabb
 def instance_case(clause, name, chunk, offset, fmt, *values):
     simple(clause, "instances_" + name, lambda f: f.patch(chunk, offset, fmt, *values), "two_triangles_instances")

@@ -50,4 +50,9 @@ void OptionalOutput::write(std::span<const std::byte> bytes) {
     output_->commit();
 }
 
+void OptionalOutput::write(const std::function<void(std::ostream&)>& writer) {
+    writer(output_->stream());
+    output_->commit();
+}
+
 }  // namespace bvhio

@@ -1,6 +1,7 @@
 // The frame of a tool that reads a container and prints a report about it.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,6 +46,8 @@ class OptionalOutput {
     }
     explicit operator bool() const { return output_.has_value(); }
     void write(std::span<const std::byte> bytes);
+    /// Writes what `writer` does to the stream.
+    void write(const std::function<void(std::ostream&)>& writer);
 
   private:
     std::optional<Output> output_;

@@ -175,6 +175,20 @@ TEST(BvhxFile, unknownChunksStayUntilAPassDoesWhatTheyDoNotSurvive) {
     EXPECT_EQ(changed.unknownChunks[0].flags, kSurvivesTopologyChange);
 }
 
+// Visits of other nodes would be no error that a reader could see.
+TEST(BvhxFile, visitsSurviveNoChange) {
+    for (const Change change : {Change::reordered, Change::topologyChanged}) {
+        BvhxFile file = sampleFile();
+        file.visits = std::vector<uint32_t>(decode(file.bvh).nodes.size() / 2, 3);
+        BvhxFile read = readBvhx(asBytes(written(file)), "test");
+        expectSameContent(file, read);
+        ASSERT_FALSE(read.visits.empty());
+        dropChunksThatDoNotSurvive(read, change);
+        EXPECT_TRUE(read.visits.empty());
+        EXPECT_TRUE(readBvhx(asBytes(written(read)), "test").visits.empty());
+    }
+}
+
 TEST(BvhxFile, namesThatAreNoTextBecomeText) {
     BvhxFile file = sampleFile();
     file.scene.geometries[0].name = "caf\xE9 \xF0\x9F\x8C\xB2 \xED\xA0\x80";

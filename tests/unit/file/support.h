@@ -76,6 +76,7 @@ inline void expectSameContent(const BvhxFile& a, const BvhxFile& b) {
         expectSameArray<Node>(treesA[i].nodes, treesB[i].nodes, "nodes");
         expectSameArray<uint32_t>(treesA[i].primitives, treesB[i].primitives, "primitives");
     }
+    expectSameArray<uint32_t>(a.visits, b.visits, "visits");
     EXPECT_EQ(a.costs, b.costs);
     EXPECT_EQ(a.provenance, b.provenance);
     ASSERT_EQ(a.unknownChunks.size(), b.unknownChunks.size());

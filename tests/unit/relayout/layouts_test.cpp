@@ -131,6 +131,21 @@ TEST(Layouts, crossFewerLinesAndPagesThanDepthFirst) {
         EXPECT_LE(ratio(layout, aabb, 4096 / 64), 0.66) << layout;
 }
 
+// Pairs that no ray visited are ordered by area, and visits of no rays say nothing.
+TEST(PairWeights, byVisitsAddLinesByArea) {
+    Bvh bvh = test::treeOfPairs({{0, 2}, {3, 4}});
+    AlignedVector<Node> nodes(bvh.nodes.begin(), bvh.nodes.end());
+    nodes[0].bounds = {{0, 0, 0}, {2, 2, 2}};
+    bvh.nodes = std::move(nodes);
+    const std::vector<uint32_t> visits{20, 10, 0};
+    EXPECT_EQ(weightsByVisits(bvh, visits, 2), (PairWeights{60, 50, 10}));
+    const PairWeights plain = weightsByVisits(bvh, visits, 0);
+    EXPECT_NEAR(plain[1], 10, 1e-4);
+    EXPECT_GT(plain[2], 0);
+    EXPECT_LT(plain[2], 1e-4);
+    EXPECT_EQ(weightsByVisits(bvh, std::vector<uint32_t>{0, 0, 0}, 2), weightsByArea(bvh));
+}
+
 TEST(PairWeights, byAreaAreThoseOfTheParentsBoxes) {
     Bvh bvh = test::treeOfPairs({{0, 2}, {3, 4}});
     AlignedVector<Node> nodes(bvh.nodes.begin(), bvh.nodes.end());

@@ -55,6 +55,10 @@ TEST(NodeOrder, gathersPrimitivesDepthFirst) {
     }
 }
 
+TEST(NodeOrder, movesWhatIsKnownOfPairsAlike) {
+    EXPECT_EQ(inNodeOrder(std::vector<uint32_t>{9, 1, 2, 3}, {2, 6, 4}), (std::vector<uint32_t>{9, 1, 3, 2}));
+}
+
 TEST(NodeOrder, keepsATreeOfOneLeaf) {
     AlignedVector<Node> nodes(2);
     nodes[0] = {unitBoxAt(0), 0, 2};

@@ -1,0 +1,13 @@
+// The chunk of visits (format-spec/visits.md).
+#pragma once
+
+#include "core/bvh.h"
+#include "file/chunks.h"
+
+namespace bvhio {
+
+/// Reads the visits of a tree in the aabb form, whose chunks were read just before; empty without the chunk.
+/// Throws FindingError unless no pair has more than the one that holds its parent.
+SharedArray<uint32_t> readVisits(ChunkSequence& chunks, const Bvh& bvh);
+
+}  // namespace bvhio

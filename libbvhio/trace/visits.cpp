@@ -1,0 +1,55 @@
+#include "trace/visits.h"
+
+#include <mutex>
+
+#include "core/parallel.h"
+#include "trace/traverse.h"
+
+namespace bvhio {
+namespace {
+
+// Each task has counts of its own.
+constexpr size_t kRaysPerTask = 65536;
+
+/// The metrics policy that counts fetches of each record.
+struct VisitMetrics {
+    std::vector<uint32_t> counts;
+
+    void recordFetched(size_t offset, size_t) { ++counts[offset / (2 * sizeof(Node))]; }
+    void boxesTested(uint32_t, BoxTestCost) {}
+    void leafEntered(PrimitiveRange) {}
+    void pushed(size_t) {}
+    void popped(size_t) {}
+};
+
+template <class Query>
+void visit(const AabbForm& form, const Scene& scene, std::span<const Ray> rays, VisitMetrics& metrics) {
+    const HWY_NAMESPACE::IndexedTriangles triangles{scene, form.primitives()};
+    for (const Ray& given : rays) {
+        const PreparedRay ray(given);
+        Query query(ray);
+        if (!ray.missesByDefinition()) HWY_NAMESPACE::traverse(form, triangles, ray, query, metrics);
+    }
+}
+
+}  // namespace
+
+std::vector<uint32_t> countVisits(const Scene& scene, const Bvh& bvh, std::span<const Ray> rays,
+                                  Query query) {
+    const AabbForm form(bvh);
+    std::vector<uint32_t> sums(bvh.nodes.size() / 2, 0);
+    std::mutex mutex;
+    parallelChunks(rays.size(), kRaysPerTask, [&](size_t begin, size_t end) {
+        VisitMetrics metrics{std::vector<uint32_t>(sums.size(), 0)};
+        const auto part = rays.subspan(begin, end - begin);
+        if (query == Query::closest)
+            visit<ClosestHit>(form, scene, part, metrics);
+        else
+            visit<AnyHit>(form, scene, part, metrics);
+        const std::lock_guard lock(mutex);
+        for (size_t i = 0; i < sums.size(); ++i) sums[i] += metrics.counts[i];
+    });
+    return sums;
+}
+
+}  // namespace bvhio

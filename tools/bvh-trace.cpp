@@ -7,7 +7,9 @@
 #include "core/parallel.h"
 #include "stats/size_stats.h"
 #include "stats/stats_report.h"
+#include "trace/cache_model.h"
 #include "trace/compare.h"
+#include "trace/fetch_table.h"
 #include "trace/find_camera.h"
 #include "trace/heat_map.h"
 #include "trace/ray_file.h"
@@ -30,7 +32,8 @@ const ToolInfo kTool = {
 };
 
 struct Options {
-    std::string rays, rayOrder, resolution, camera, saveRays, recordVisits, hits, image, heatmap, compare;
+    std::string rays, rayOrder, resolution, camera, cache, fetches, saveRays, recordVisits, hits, image,
+        heatmap, compare;
     RaySetOptions set;
     bool anyHit = false;
     uint32_t repeat = 3;
@@ -52,9 +55,12 @@ void declare(CommandLine& line, Options& options) {
     line.flag("--any-hit", options.anyHit, "ask for any hit, not the closest");
     line.choice("--ray-order", options.rayOrder, namedValues(rayOrders()),
                 "the order in which rays are traced");
+    line.list("--cache", "SIZE:LINE:WAYS", options.cache,
+              "model a cache; levels by commas or again; + for another");
     line.number("--repeat", options.repeat, 1, 1000, "timed runs, of which the fastest counts");
     line.text("--compare", "OTHER.bvhx", options.compare, "trace this too; exit 7 when hits differ");
     line.number("--tolerance", options.tolerance, 0, 1, "t may differ by this part of it, in --compare");
+    line.text("--fetches", "FILE.csv", options.fetches, "write where each read begins, in which array");
     line.text("--save-rays", "FILE.rays", options.saveRays, "write the rays");
     line.text("--record-visits", "FILE.bvhx", options.recordVisits,
               "write the container with how many rays visit each pair of nodes");
@@ -148,8 +154,10 @@ ExitCode traceRays(CommandLine& line) {
     QueryTool query(line);
     options.set.resolution = parseResolution(options.resolution);
     if (!options.camera.empty()) options.set.camera = parseCamera(options.camera);
+    const std::vector<CacheLevels> caches =
+        options.cache.empty() ? std::vector<CacheLevels>() : parseCaches(options.cache);
     OptionalOutput raysOutput(options.saveRays), visitsOutput(options.recordVisits), hitsOutput(options.hits),
-        image(options.image), heatmap(options.heatmap);
+        fetchesOutput(options.fetches, OutputKind::text), image(options.image), heatmap(options.heatmap);
 
     const BvhxFile file = query.read();
     if (visitsOutput && file.scene.isInstanced())
@@ -177,12 +185,18 @@ ExitCode traceRays(CommandLine& line) {
     const std::vector<HitRecord> records = trace(tracer, file.scene, set.rays, options.anyHit);
     query.stages().begin("count");
     std::vector<RayCounts> perRay(heatmap ? rays.size() : 0);
+    std::optional<CacheModel> cacheModel;
+    std::optional<FetchTable> fetchTable;
+    std::vector<FetchListener*> listeners;
+    if (!caches.empty()) listeners.push_back(&cacheModel.emplace(caches, tracer.arraySizes()));
+    if (fetchesOutput) listeners.push_back(&fetchTable.emplace(fetchesOutput.stream(), order));
     const TraceMeasurement measurement =
-        tracer.measure(rays, options.anyHit ? Query::any : Query::closest, perRay);
+        tracer.measure(rays, options.anyHit ? Query::any : Query::closest, perRay, listeners);
 
     Report report = {{"rays", rays.size()}, {"hits", measurement.counts.hits}};
     report["hit_hash"] = hashText(hitHash(records));
     addTo(report, measurement);
+    if (cacheModel) report["cache"] = cacheModel->report(rays.size());
     report["mrays_per_second"] = seconds > 0 ? double(rays.size()) / seconds / 1e6 : 0;
     report["threads"] = threadCount();
     report["seconds"] = seconds;
@@ -202,6 +216,7 @@ ExitCode traceRays(CommandLine& line) {
         visitsOutput.write(
             [&](std::ostream& out) { writeBvhx(out, withVisits(file, set.rays, line, options.anyHit), {}); });
     if (hitsOutput) hitsOutput.write(encodeHits(records));
+    if (fetchesOutput) fetchesOutput.commit();
     if (image) image.write(encodePng(shadedImage(file.scene, set.camera, set.resolution, closestHits)));
     if (heatmap) {
         std::vector<uint32_t> costs(rays.size());

@@ -45,17 +45,21 @@ bool isHit(bool occluded) {
 
 template <class Query, class Form>
 TraceMeasurement measureForm(const Form& form, const Scene& scene, std::span<const Ray> rays,
-                             std::span<RayCounts> perRay) {
+                             std::span<RayCounts> perRay, std::span<FetchListener* const> listeners) {
     TraversalCounts sums;
     LocalityMetrics allLocality(form.nodeBytes());
     std::mutex mutex;
-    // Large tasks: each has its own map of the blocks that were touched.
-    parallelChunks(rays.size(), 16 * kRaysPerTask, [&](size_t begin, size_t end) {
+    // Large tasks: each has its own map of the blocks that were touched. Listeners hear one ray after the
+    // other.
+    const size_t raysPerTask = listeners.empty() ? 16 * kRaysPerTask : std::max(rays.size(), size_t(1));
+    parallelChunks(rays.size(), raysPerTask, [&](size_t begin, size_t end) {
         CountMetrics counts;
         LocalityMetrics locality(form.nodeBytes());
-        CombinedMetrics both(counts, locality);
+        FetchMetrics fetches(listeners, scene, form.primitives());
+        CombinedMetrics all(counts, locality, fetches);
         for (size_t i = begin; i < end; ++i) {
-            const bool hit = isHit(traceIndexed<Query>(form, scene, rays[i], both));
+            fetches.beginRay(i);
+            const bool hit = isHit(traceIndexed<Query>(form, scene, rays[i], all));
             const RayCounts ray = counts.finishRay(hit);
             locality.finishRay();
             if (!perRay.empty()) perRay[i] = ray;
@@ -143,11 +147,22 @@ void Tracer::anyHits(std::span<const Ray> rays, std::span<uint8_t> occluded) con
     });
 }
 
-TraceMeasurement Tracer::measure(std::span<const Ray> rays, Query query, std::span<RayCounts> perRay) const {
+TraceMeasurement Tracer::measure(std::span<const Ray> rays, Query query, std::span<RayCounts> perRay,
+                                 std::span<FetchListener* const> listeners) const {
     return std::visit(
         [&](const auto& form) {
-            return query == Query::closest ? measureForm<ClosestHit>(form, scene_, rays, perRay)
-                                           : measureForm<AnyHit>(form, scene_, rays, perRay);
+            return query == Query::closest ? measureForm<ClosestHit>(form, scene_, rays, perRay, listeners)
+                                           : measureForm<AnyHit>(form, scene_, rays, perRay, listeners);
+        },
+        bvh_);
+}
+
+FetchedArraySizes Tracer::arraySizes() const {
+    return std::visit(
+        [&](const auto& form) {
+            return FetchedArraySizes{form.nodeBytes(), form.primitives().size() * sizeof(uint32_t),
+                                     scene_.triangles.size() * sizeof(TriangleIndices),
+                                     scene_.vertices.size() * sizeof(Vec3)};
         },
         bvh_);
 }

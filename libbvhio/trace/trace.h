@@ -6,6 +6,7 @@
 #include <span>
 
 #include "compress/forms.h"
+#include "trace/fetches.h"
 #include "trace/locality.h"
 #include "trace/metrics.h"
 #include "trace/triangle_blocks.h"
@@ -42,8 +43,13 @@ class Tracer {
     void anyHits(std::span<const Ray> rays, std::span<uint8_t> occluded) const;
 
     /// Runs the queries once more, slower, and counts what they cost; times are measured without this.
-    /// `perRay`, when not empty, has one element for each ray.
-    TraceMeasurement measure(std::span<const Ray> rays, Query query, std::span<RayCounts> perRay = {}) const;
+    /// `perRay`, when not empty, has one element for each ray. Listeners hear of all fetches, ray after ray,
+    /// on one thread.
+    TraceMeasurement measure(std::span<const Ray> rays, Query query, std::span<RayCounts> perRay = {},
+                             std::span<FetchListener* const> listeners = {}) const;
+
+    /// Of the arrays whose fetches listeners hear of.
+    FetchedArraySizes arraySizes() const;
 
     /// Bytes of the copy of the triangles; 0 without one.
     size_t preparedBytes() const { return blocks_ ? blocks_->bytes() : 0; }

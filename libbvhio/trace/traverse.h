@@ -94,7 +94,7 @@ struct TestTriangles {
 };
 
 /// Walks one ray, which must not miss by definition, through the form.
-template <Form F, class Source, class Query, class Metrics>
+template <SteppableForm F, class Source, class Query, class Metrics>
 HWY_INLINE void traverse(const F& form, const Source& source, const PreparedRay& ray, Query& query,
                          Metrics& metrics) {
     const typename F::Ray formRay = form.prepare(ray);

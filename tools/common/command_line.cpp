@@ -56,11 +56,12 @@ struct CommandLine::Parser {
     std::vector<Recorded> recorded;
     std::unique_ptr<ThreadLimit> threadLimit;
 
-    void add(const std::string& names, const std::string& valueName, const std::string& help,
-             std::function<void(const std::string&)> set, std::function<Report()> get) {
+    CLI::Option* add(const std::string& names, const std::string& valueName, const std::string& help,
+                     std::function<void(const std::string&)> set, std::function<Report()> get) {
         CLI::Option* option = app.add_option_function<std::string>(names, std::move(set), help);
         option->type_name(valueName)->group(group)->take_last();
         if (recording) recorded.push_back({option->get_single_name(), std::move(get), option});
+        return option;
     }
 
     template <class T>
@@ -183,6 +184,14 @@ void CommandLine::text(const std::string& names, const std::string& valueName, s
     parser_->add(
         names, valueName, help, [&value](const std::string& text) { value = text; },
         [&value] { return value.empty() ? Report() : Report(value); });
+}
+
+void CommandLine::list(const std::string& names, const std::string& valueName, std::string& value,
+                       const std::string& help) {
+    CLI::Option* option = parser_->add(
+        names, valueName, help, [&value](const std::string& text) { value = text; },
+        [&value] { return value.empty() ? Report() : Report(value); });
+    option->join(',');
 }
 
 void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {

@@ -55,6 +55,9 @@ class CommandLine {
     /// An empty default stands for none.
     void text(const std::string& names, const std::string& valueName, std::string& value,
               const std::string& help);
+    /// A text that may be given several times: joined by commas.
+    void list(const std::string& names, const std::string& valueName, std::string& value,
+              const std::string& help);
     void flag(const std::string& names, bool& value, const std::string& help);
     /// --NAME and --no-NAME, the last one given counts; options() remembers it as NAME.
     void toggle(const std::string& name, bool& value, const std::string& help);

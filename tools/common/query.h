@@ -37,17 +37,20 @@ class QueryTool {
     std::optional<Output> output_;
 };
 
-/// A binary file that is written only where its option names one; opened at once, so that a wrong path is
-/// found before the work.
+/// A file beside the report, written only where its option names one; opened at once, so that a wrong path
+/// is found before the work.
 class OptionalOutput {
   public:
-    explicit OptionalOutput(const std::string& path) {
-        if (!path.empty()) output_.emplace(path, OutputKind::binary);
+    explicit OptionalOutput(const std::string& path, OutputKind kind = OutputKind::binary) {
+        if (!path.empty()) output_.emplace(path, kind);
     }
     explicit operator bool() const { return output_.has_value(); }
+    /// All of it at once; or through the stream, bit by bit, until commit().
     void write(std::span<const std::byte> bytes);
     /// Writes what `writer` does to the stream.
     void write(const std::function<void(std::ostream&)>& writer);
+    std::ostream& stream() { return output_->stream(); }
+    void commit() { output_->commit(); }
 
   private:
     std::optional<Output> output_;

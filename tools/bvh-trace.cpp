@@ -32,8 +32,8 @@ const ToolInfo kTool = {
 };
 
 struct Options {
-    std::string rays, rayOrder, resolution, camera, cache, fetches, saveRays, recordVisits, hits, image,
-        heatmap, compare;
+    std::string rays, rayOrder, nodeStorage, resolution, camera, cache, fetches, saveRays, recordVisits, hits,
+        image, heatmap, compare;
     RaySetOptions set;
     bool anyHit = false;
     uint32_t repeat = 3;
@@ -55,6 +55,8 @@ void declare(CommandLine& line, Options& options) {
     line.flag("--any-hit", options.anyHit, "ask for any hit, not the closest");
     line.choice("--ray-order", options.rayOrder, namedValues(rayOrders()),
                 "the order in which rays are traced");
+    line.choice("--node-storage", options.nodeStorage, namedValues(nodeStorages()),
+                "store the aabb form's nodes so, to compare");
     line.list("--cache", "SIZE:LINE:WAYS", options.cache,
               "model a cache; levels by commas or again; + for another");
     line.number("--repeat", options.repeat, 1, 1000, "timed runs, of which the fastest counts");
@@ -67,6 +69,11 @@ void declare(CommandLine& line, Options& options) {
     line.text("--hits", "FILE.hits", options.hits, "write the hits");
     line.text("--image", "FILE.png", options.image, "draw the scene, shaded");
     line.text("--heatmap", "FILE.png", options.heatmap, "draw what each pixel's rays cost: NC + TC");
+}
+
+Tracer tracerOf(const Options& options, const BvhxFile& file) {
+    if (options.nodeStorage.empty()) return {file.scene, file.bvh};
+    return {file.scene, file.bvh, choose(nodeStorages(), "node storage", options.nodeStorage)};
 }
 
 /// Reads a ray file, or makes a set of the table.
@@ -164,7 +171,7 @@ ExitCode traceRays(CommandLine& line) {
         throw Error(ErrorKind::usage,
                     "--record-visits: the scene has instances: build without --two-level to record visits");
     query.stages().begin("prepare");
-    const Tracer tracer(file.scene, file.bvh);
+    const Tracer tracer = tracerOf(options, file);
     const ClosestHits closestHits = [&](std::span<const Ray> rays) {
         std::vector<Hit> hits(rays.size());
         tracer.closestHits(rays, hits);
@@ -200,9 +207,12 @@ ExitCode traceRays(CommandLine& line) {
     report["mrays_per_second"] = seconds > 0 ? double(rays.size()) / seconds / 1e6 : 0;
     report["threads"] = threadCount();
     report["seconds"] = seconds;
-    addTo(report, sizeStats(file.scene, file.bvh));
+    SizeStats sizes = sizeStats(file.scene, file.bvh);
+    if (!options.nodeStorage.empty()) sizes.nodes = tracer.arraySizes()[size_t(FetchedArray::nodes)];
+    addTo(report, sizes);
     report["bytes"]["prepared"] = tracer.preparedBytes();
     report["form"] = formNameOf(file.bvh);
+    if (!options.nodeStorage.empty()) report["node_storage"] = options.nodeStorage;
     report["camera"] = formatCamera(set.camera);
     report["options"] = line.options();
     query.stages().begin("compare");

@@ -115,6 +115,15 @@ std::vector<PrimitiveRange> leavesOf(const EncodedBvh& encoded) {
     return leaves;
 }
 
+/// Nodes in pairs are the aabb form's: nothing needs to be compiled for them apart.
+template <class F>
+const F& countedAs(const F& form) {
+    return form;
+}
+const AabbForm& countedAs(const NodesInPairs& nodes) {
+    return nodes;
+}
+
 }  // namespace
 
 Tracer::Tracer(const Scene& scene, const EncodedBvh& bvh, TriangleSource source) : scene_(scene), bvh_(bvh) {
@@ -125,10 +134,20 @@ Tracer::Tracer(const Scene& scene, const EncodedBvh& bvh, TriangleSource source)
     }
 }
 
+Tracer::Tracer(const Scene& scene, const EncodedBvh& bvh, const NodeStorage& storage) : Tracer(scene, bvh) {
+    const auto* form = std::get_if<AabbForm>(&bvh);
+    if (form == nullptr)
+        throw Error(ErrorKind::usage, "node storage '" + std::string(storage.name) +
+                                          "' is for the aabb form, not " + std::string(formNameOf(bvh)) +
+                                          ": convert it with bvh-compress --form aabb");
+    stored_.emplace(storage.function(*form));
+}
+
 void Tracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
     parallelChunks(rays.size(), kRaysPerTask, [&](size_t begin, size_t end) {
         const auto part = rays.subspan(begin, end - begin);
         const auto results = hits.subspan(begin, end - begin);
+        if (stored_) return closestHitsInBlocks(*stored_, *blocks_, part, results);
         if (blocks_)
             return std::visit([&](const auto& form) { closestHitsInBlocks(form, *blocks_, part, results); },
                               bvh_);
@@ -140,6 +159,7 @@ void Tracer::anyHits(std::span<const Ray> rays, std::span<uint8_t> occluded) con
     parallelChunks(rays.size(), kRaysPerTask, [&](size_t begin, size_t end) {
         const auto part = rays.subspan(begin, end - begin);
         const auto results = occluded.subspan(begin, end - begin);
+        if (stored_) return anyHitsInBlocks(*stored_, *blocks_, part, results);
         if (blocks_)
             return std::visit([&](const auto& form) { anyHitsInBlocks(form, *blocks_, part, results); },
                               bvh_);
@@ -149,22 +169,21 @@ void Tracer::anyHits(std::span<const Ray> rays, std::span<uint8_t> occluded) con
 
 TraceMeasurement Tracer::measure(std::span<const Ray> rays, Query query, std::span<RayCounts> perRay,
                                  std::span<FetchListener* const> listeners) const {
-    return std::visit(
-        [&](const auto& form) {
-            return query == Query::closest ? measureForm<ClosestHit>(form, scene_, rays, perRay, listeners)
-                                           : measureForm<AnyHit>(form, scene_, rays, perRay, listeners);
-        },
-        bvh_);
+    const auto measure = [&](const auto& nodes) {
+        const auto& form = countedAs(nodes);
+        return query == Query::closest ? measureForm<ClosestHit>(form, scene_, rays, perRay, listeners)
+                                       : measureForm<AnyHit>(form, scene_, rays, perRay, listeners);
+    };
+    return stored_ ? std::visit(measure, *stored_) : std::visit(measure, bvh_);
 }
 
 FetchedArraySizes Tracer::arraySizes() const {
-    return std::visit(
-        [&](const auto& form) {
-            return FetchedArraySizes{form.nodeBytes(), form.primitives().size() * sizeof(uint32_t),
-                                     scene_.triangles.size() * sizeof(TriangleIndices),
-                                     scene_.vertices.size() * sizeof(Vec3)};
-        },
-        bvh_);
+    const auto sizes = [&](const auto& form) {
+        return FetchedArraySizes{form.nodeBytes(), form.primitives().size() * sizeof(uint32_t),
+                                 scene_.triangles.size() * sizeof(TriangleIndices),
+                                 scene_.vertices.size() * sizeof(Vec3)};
+    };
+    return stored_ ? std::visit(sizes, *stored_) : std::visit(sizes, bvh_);
 }
 
 Hit bruteForceClosestHit(const Scene& scene, const Ray& ray) {

@@ -9,6 +9,7 @@
 #include "trace/fetches.h"
 #include "trace/locality.h"
 #include "trace/metrics.h"
+#include "trace/node_storage.h"
 #include "trace/triangle_blocks.h"
 
 namespace bvhio {
@@ -36,6 +37,11 @@ class Tracer {
   public:
     Tracer(const Scene& scene, const EncodedBvh& bvh, TriangleSource source = TriangleSource::blocks);
 
+    /// Nodes of the aabb form stored in another way, and traced in triangle blocks by code for the most basic
+    /// processor: times compare with each other, not with those of other tracers. Throws Error{usage} for
+    /// other forms, Error{unsupported} where leaves are too large.
+    Tracer(const Scene& scene, const EncodedBvh& bvh, const NodeStorage& storage);
+
     /// The closest hit of each ray; among equal t the lowest primitive index. Sizes must be equal.
     void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const;
 
@@ -58,6 +64,7 @@ class Tracer {
     const Scene& scene_;
     const EncodedBvh& bvh_;
     std::optional<TriangleBlocks> blocks_;
+    std::optional<StoredNodes> stored_;
 };
 
 /// What every tree must give, found by testing every triangle.

@@ -1,0 +1,246 @@
+// Other ways to store the nodes of the aabb form, made in memory to be compared by: the hits are the same.
+//
+// T. Aila and S. Laine, "Understanding the Efficiency of Ray Traversal on GPUs" (HPG 2009), step through
+// records of 64 bytes that hold the boxes of both children and a reference to each. S. Wodniok, A. Schulz, S.
+// Widmer and M. Goesele, "Analysis of Cache Behavior and Performance of Different BVH Memory Layouts for
+// Tracing Incoherent Rays" (EGPGV 2013), compare these with the same 56 bytes in several arrays: three of 16
+// bytes and one of 8, or one of 32 and one of 24. What goes into which array is our choice; the order of
+// the records is that of the sibling pairs. The root's box is beside the records, not in one.
+//
+// A reference is 32 bits: of a record; or, with the highest bit set, of a leaf: its number of triangles less
+// one above its first entry in the primitive array, in as many bits as the tree needs for each. Boxes are
+// tested plane by plane, so that references never are in lanes beside planes, where as floats they would be
+// denormal and slow.
+#pragma once
+
+#include <variant>
+
+#include "compress/aabb_form.h"
+#include "core/choice.h"
+
+namespace bvhio {
+
+/// How references tell leaves.
+class ChildReferences {
+  public:
+    explicit ChildReferences(const Bvh& bvh);
+
+    uint32_t of(const Node& node) const {
+        return node.isLeaf() ? kLeaf | (node.primitiveCount - 1) << firstBits_ | node.first
+                             : node.first / 2 - 1;  // the pair in slots 2 and 3 is record 0
+    }
+    static BVHIO_INLINE bool isLeaf(uint32_t reference) { return (reference & kLeaf) != 0; }
+    BVHIO_INLINE PrimitiveRange range(uint32_t reference) const {
+        return {reference & ((1u << firstBits_) - 1), ((reference & ~kLeaf) >> firstBits_) + 1};
+    }
+
+  private:
+    static constexpr uint32_t kLeaf = 0x80000000;
+    uint32_t firstBits_;
+};
+
+/// An array's place behind others, for metrics: each begins a cache line.
+constexpr size_t behindArray(size_t offset, size_t bytes) {
+    return (offset + bytes + 63) / 64 * 64;
+}
+
+/// Both boxes and both references in a record of 64 bytes.
+class RecordArray {
+  public:
+    struct alignas(64) Record {
+        float left[6], right[6];  // min.xyz, max.xyz
+        uint32_t children[2];
+        uint32_t unused[2];
+    };
+    static_assert(sizeof(Record) == 64);
+
+    explicit RecordArray(size_t count) : records_(count) {}
+    void set(size_t i, const Node& left, const Node& right, const ChildReferences& references);
+    size_t bytes() const { return behindArray(0, records_.size() * sizeof(Record)); }
+
+    using Ray = const PreparedRay&;
+    static const PreparedRay& prepare(const PreparedRay& ray) { return ray; }
+    template <class Metrics>
+    BVHIO_INLINE void tell(size_t i, Metrics& metrics) const {
+        metrics.recordFetched(i * sizeof(Record), sizeof(Record));
+    }
+    BVHIO_INLINE RayInterval clipLeft(size_t i, const PreparedRay& ray, float tLimit) const {
+        return clipToPlanes(ray, records_[i].left, tLimit);
+    }
+    BVHIO_INLINE RayInterval clipRight(size_t i, const PreparedRay& ray, float tLimit) const {
+        return clipToPlanes(ray, records_[i].right, tLimit);
+    }
+    BVHIO_INLINE uint32_t child(size_t i, int which) const { return records_[i].children[which]; }
+
+  private:
+    AlignedVector<Record> records_;
+};
+
+/// The left box and both references in 32 bytes, the right box in 24.
+class ArraysOf32And24 {
+  public:
+    struct Left {
+        float planes[6];
+        uint32_t children[2];
+    };
+    struct Right {
+        float planes[6];
+    };
+    static_assert(sizeof(Left) == 32 && sizeof(Right) == 24);
+
+    explicit ArraysOf32And24(size_t count)
+        : left_(count), right_(count), rightAt_(behindArray(0, count * 32)) {}
+    void set(size_t i, const Node& left, const Node& right, const ChildReferences& references);
+    size_t bytes() const { return behindArray(rightAt_, right_.size() * sizeof(Right)); }
+
+    using Ray = const PreparedRay&;
+    static const PreparedRay& prepare(const PreparedRay& ray) { return ray; }
+    template <class Metrics>
+    BVHIO_INLINE void tell(size_t i, Metrics& metrics) const {
+        metrics.recordFetched(i * sizeof(Left), sizeof(Left));
+        metrics.recordFetched(rightAt_ + i * sizeof(Right), sizeof(Right));
+    }
+    BVHIO_INLINE RayInterval clipLeft(size_t i, const PreparedRay& ray, float tLimit) const {
+        return clipToPlanes(ray, left_[i].planes, tLimit);
+    }
+    BVHIO_INLINE RayInterval clipRight(size_t i, const PreparedRay& ray, float tLimit) const {
+        return clipToPlanes(ray, right_[i].planes, tLimit);
+    }
+    BVHIO_INLINE uint32_t child(size_t i, int which) const { return left_[i].children[which]; }
+
+  private:
+    AlignedVector<Left> left_;
+    AlignedVector<Right> right_;
+    size_t rightAt_;
+};
+
+/// Three arrays of 16 bytes, x and y of the left box, of the right one, z of both, and one of 8: references.
+class ArraysOf16And8 {
+  public:
+    /// Throws Error{unsupported} above 2^28 records: planes are told by 32-bit numbers.
+    explicit ArraysOf16And8(size_t count);
+    void set(size_t i, const Node& left, const Node& right, const ChildReferences& references);
+    size_t bytes() const { return behindArray(childrenAt(), children_.size() * sizeof(Children)); }
+
+    /// The ray, and the same as seen from either box: its near and far planes are told by how many floats
+    /// they lie behind the box's first.
+    struct Ray {
+        const PreparedRay& given;
+        PreparedRay toLeft, toRight;
+    };
+    Ray prepare(const PreparedRay& ray) const {
+        return {ray, withPlanes(ray, 2 * arrayFloats_), withPlanes(ray, arrayFloats_ + 2)};
+    }
+    template <class Metrics>
+    BVHIO_INLINE void tell(size_t i, Metrics& metrics) const {
+        for (size_t array = 0; array < 3; ++array)
+            metrics.recordFetched((array * arrayFloats_ + 4 * i) * sizeof(float), 4 * sizeof(float));
+        metrics.recordFetched(childrenAt() + i * sizeof(Children), sizeof(Children));
+    }
+    BVHIO_INLINE RayInterval clipLeft(size_t i, const Ray& ray, float tLimit) const {
+        return clipToPlanes(ray.toLeft, planes_.data() + 4 * i, tLimit);
+    }
+    BVHIO_INLINE RayInterval clipRight(size_t i, const Ray& ray, float tLimit) const {
+        return clipToPlanes(ray.toRight, planes_.data() + arrayFloats_ + 4 * i, tLimit);
+    }
+    BVHIO_INLINE uint32_t child(size_t i, int which) const { return children_[i].references[which]; }
+
+  private:
+    struct alignas(8) Children {
+        uint32_t references[2];
+    };
+
+    size_t childrenAt() const { return 3 * arrayFloats_ * sizeof(float); }
+    /// min.x and max.x are a box's first floats, min.y and max.y the next, min.z and max.z those from zAt on.
+    static PreparedRay withPlanes(PreparedRay ray, size_t zAt) {
+        const uint32_t min[] = {0, 2, uint32_t(zAt)};
+        for (uint32_t axis = 0; axis < 3; ++axis) {
+            ray.nearPlane[axis] = min[axis] + ray.nearPlane[axis] / 3;
+            ray.farPlane[axis] = min[axis] + ray.farPlane[axis] / 3;
+        }
+        return ray;
+    }
+
+    size_t arrayFloats_;  // from one array to the next
+    AlignedVector<float> planes_;
+    AlignedVector<Children> children_;
+};
+
+/// Nodes stored in `Arrays`, as the traversal loop steps through them.
+template <class Arrays>
+class NodesIn {
+  public:
+    static constexpr int kMaxChildren = 2;
+    using Cursor = uint32_t;  // a reference
+    using Ray = typename Arrays::Ray;
+
+    /// Throws Error{unsupported} where leaves are too large and too many for references.
+    explicit NodesIn(const AabbForm& form);
+
+    std::span<const uint32_t> primitives() const { return primitives_; }
+    size_t nodeBytes() const { return arrays_.bytes(); }
+
+    Ray prepare(const PreparedRay& ray) const { return arrays_.prepare(ray); }
+
+    template <class Metrics>
+    BVHIO_INLINE bool enterRoot(const PreparedRay& ray, float tLimit, Entered<Cursor>& root,
+                                Metrics& metrics) const {
+        metrics.boxesTested(1, AabbForm::kBoxTestCost);
+        const RayInterval part = clipToBox(ray, bounds_, tLimit);
+        root = {root_, part.enter};
+        return !part.isEmpty();
+    }
+    template <class Metrics>
+    BVHIO_INLINE bool enterRoot(const ArraysOf16And8::Ray& ray, float tLimit, Entered<Cursor>& root,
+                                Metrics& metrics) const {
+        return enterRoot(ray.given, tLimit, root, metrics);
+    }
+
+    template <class Metrics>
+    BVHIO_INLINE int step(const Entered<Cursor>& from, const std::remove_reference_t<Ray>& ray, float tLimit,
+                          Entered<Cursor>* children, Metrics& metrics) const {
+        const size_t i = from.cursor;
+        arrays_.tell(i, metrics);
+        metrics.boxesTested(2, AabbForm::kBoxTestCost);
+        const RayInterval inLeft = arrays_.clipLeft(i, ray, tLimit);
+        const RayInterval inRight = arrays_.clipRight(i, ray, tLimit);
+        if (inLeft.isEmpty()) {
+            if (inRight.isEmpty()) return 0;
+            children[0] = {arrays_.child(i, 1), inRight.enter};
+            return 1;
+        }
+        if (inRight.isEmpty()) {
+            children[0] = {arrays_.child(i, 0), inLeft.enter};
+            return 1;
+        }
+        const bool rightFirst = inRight.enter < inLeft.enter;
+        children[rightFirst] = {arrays_.child(i, 0), inLeft.enter};
+        children[!rightFirst] = {arrays_.child(i, 1), inRight.enter};
+        return 2;
+    }
+
+    bool isLeaf(Cursor cursor) const { return ChildReferences::isLeaf(cursor); }
+    PrimitiveRange primitiveRange(Cursor cursor) const { return references_.range(cursor); }
+
+  private:
+    Aabb bounds_;
+    ChildReferences references_;
+    uint32_t root_;
+    Arrays arrays_;
+    SharedArray<uint32_t> primitives_;
+};
+
+/// The form's own 32-byte nodes in sibling pairs, as a kind of storage among others.
+struct NodesInPairs : AabbForm {
+    using AabbForm::AabbForm;
+};
+
+using StoredNodes =
+    std::variant<NodesInPairs, NodesIn<RecordArray>, NodesIn<ArraysOf16And8>, NodesIn<ArraysOf32And24>>;
+
+using NodeStorage = Choice<StoredNodes (*)(const AabbForm&)>;
+
+/// All ways, that of the form itself first.
+std::span<const NodeStorage> nodeStorages();
+
+}  // namespace bvhio

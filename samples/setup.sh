@@ -25,7 +25,7 @@ tests=(
     python3 python3-xxhash python3-zstandard  # the second reader of the format
 )
 bench=(libembree-dev)       # the peer
-plots=(python3 python3-matplotlib)  # samples/pipelines/compare_methods.py --plot, plot_forms.py
+plots=(python3 python3-matplotlib)  # samples/pipelines/compare_methods.py and compare_layouts.py --plot, plot_forms.py
 
 wanted=()
 for part in "${@:-build}"; do

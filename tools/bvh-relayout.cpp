@@ -24,7 +24,7 @@ class LayoutChoice {
         line.number("--smoothing", smoothing_, 0, 1e6f,
                     "visits: how many random rays count beside each recorded one");
         line.number("--line-size", lineSize_, 16, 1u << 20, "bytes of a cache line");
-        line.number("--record-bytes", recordBytes_, 1, 1u << 10,
+        line.number("--record-bytes", recordBytes_, 4, 1u << 10,
                     "bytes that a pair of siblings takes in the form to come");
         line.number("--threshold", threshold_, 0, 1,
                     "the least probability at which a treelet goes on to a child");

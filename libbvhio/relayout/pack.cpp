@@ -1,15 +1,12 @@
-// Ours. Connected clusters of at most a line, chosen so that rays enter as few as possible
-// (relayout/line_clusters.h); those that fill no line by themselves are completed by others that fill it to
-// the last record; and lines are grouped into pages.
-//
-// A page grows from one cluster: of all clusters below what it has, the likeliest is next, until it is full.
-// What is left over starts further pages, depth first, the likeliest at once: T. Aila, T. Karras,
-// "Architecture Considerations for Tracing Incoherent Rays", HPG 2010, grow treelets so.
+// Ours. Connected clusters of at most a page, and in each connected clusters of at most a line, both chosen
+// so that rays enter as few as possible (relayout/connected_clusters.h). Pages follow each other depth first,
+// the likeliest at once; of the lines in a page the likeliest whose parent is placed is next.
 //
 // There is no room to waste: pairs follow each other without gaps, so a line that is not full would push all
 // others off their lines. A cluster smaller than a line takes with it the nearest of those waiting that
-// complete the line exactly. Where none do, it waits to complete another one's. Most such clusters are at the
-// bottom of the tree, and nothing waits for them.
+// complete the line exactly. Where none do, it is held until it completes another one's line, or until those
+// that are held fill lines together, cut where lines end. Most such clusters are at the bottom of the tree,
+// and nothing waits for them.
 
 #include "relayout/pack.h"
 
@@ -17,25 +14,28 @@
 #include <queue>
 #include <set>
 
-#include "relayout/line_clusters.h"
+#include "relayout/connected_clusters.h"
 
 namespace bvhio {
 namespace {
 
 constexpr uint32_t kNone = PairTree::kNone;
 constexpr uint32_t kPageBytes = 4096;
+// More pairs than this a cluster of a line does not have; longer lines have several.
+constexpr uint32_t kMaxClusterSize = 16;
 
 /// Clusters are called by their first pairs.
 class Packer {
   public:
-    Packer(const PairTree& tree, uint32_t clusterSize, uint32_t perPage)
+    /// `lineSize` and `pageSize` in pairs.
+    Packer(const PairTree& tree, uint32_t lineSize, uint32_t pageSize)
         : tree_(tree),
-          lineSize_(clusterSize),
-          perPage_(perPage),
-          top_(lineClusters(tree, clusterSize)),
+          lineSize_(lineSize),
+          page_(connectedClusters(tree, pageSize)),
+          top_(connectedClusters(tree, lineSize, page_)),
           sizes_(tree.size(), 0),
           placed_(tree.size(), 0),
-          waiting_(clusterSize) {
+          waiting_(lineSize) {
         for (const uint32_t top : top_) ++sizes_[top];
         order_.reserve(tree.size());
     }
@@ -48,7 +48,7 @@ class Packer {
             while (!starts_.empty()) {
                 const uint32_t start = starts_.back();
                 starts_.pop_back();
-                if (placed_[start] == 0) growPage(start);
+                if (placed_[start] == 0) placePage(start);
             }
             const uint32_t first = firstWaiting();
             if (first == kNone) return std::move(order_);
@@ -61,21 +61,25 @@ class Packer {
         return tree_[a].weight != tree_[b].weight ? tree_[a].weight < tree_[b].weight : a > b;
     }
 
-    void growPage(uint32_t start) {
+    /// Places the clusters of a page that are below this one, as far as their lines can be completed.
+    void placePage(uint32_t start) {
         const auto less = [this](uint32_t a, uint32_t b) { return isLess(a, b); };
         std::priority_queue<uint32_t, std::vector<uint32_t>, decltype(less)> open(less);
-        const size_t end = (order_.size() / perPage_ + 1) * perPage_;
-        for (open.push(start); !open.empty() && order_.size() < end;) {
+        const size_t old = starts_.size();
+        for (open.push(start); !open.empty();) {
             const uint32_t next = open.top();
             open.pop();
             if (placed_[next] != 0) continue;
             placeLine(next);
-            for (const uint32_t child : exposed_) open.push(child);
+            for (const uint32_t child : exposed_) {
+                if (page_[child] == page_[start])
+                    open.push(child);
+                else
+                    starts_.push_back(child);
+            }
             exposed_.clear();
         }
-        const size_t old = starts_.size();
-        for (; !open.empty(); open.pop()) starts_.push_back(open.top());
-        std::reverse(starts_.begin() + std::ptrdiff_t(old), starts_.end());
+        std::sort(starts_.begin() + std::ptrdiff_t(old), starts_.end(), less);
     }
 
     /// Places a cluster and those that complete its line. Where none do, a full cluster, whose lines are off
@@ -91,6 +95,22 @@ class Packer {
         } else {
             for (const uint32_t child : children) stopWaiting(child);
             wait(cluster);
+            held_.push_back(cluster);
+            placeHeld();
+        }
+    }
+
+    /// Places the last of the held clusters where together they fill lines to the last record. Of as many as
+    /// a line has records some do: the sums of two of all beginnings leave the same remainder.
+    void placeHeld() {
+        std::erase_if(held_, [this](uint32_t cluster) { return placed_[cluster] != 0; });
+        uint32_t sum = 0;
+        for (size_t first = held_.size(); first-- > 0;) {
+            sum += sizes_[held_[first]];
+            if (sum % lineSize_ != 0) continue;
+            for (size_t i = first; i < held_.size(); ++i) place(held_[i]);
+            held_.resize(first);
+            return;
         }
     }
 
@@ -182,13 +202,15 @@ class Packer {
     }
 
     const PairTree& tree_;
-    uint32_t lineSize_, perPage_;              // in pairs
-    std::vector<uint32_t> top_;                // the cluster of each pair
+    uint32_t lineSize_;
+    std::vector<uint32_t> page_;               // the page of each pair
+    std::vector<uint32_t> top_;                // its cluster
     std::vector<uint32_t> sizes_;              // of clusters
     std::vector<uint8_t> placed_;              // clusters
     std::vector<std::set<uint32_t>> waiting_;  // clusters below what is placed, by size
     std::vector<uint32_t> starts_;             // of pages to come, the next at the back
     std::vector<uint32_t> exposed_;            // clusters below what was placed last
+    std::vector<uint32_t> held_;               // clusters that nothing completed, fewer than lineSize_
     std::vector<uint32_t> parts_;
     std::vector<uint32_t> order_;
 };
@@ -199,9 +221,9 @@ LayoutResult layoutPack(const Bvh& bvh, const LayoutOptions& options) {
     const PairTree tree(bvh, options.weights);
     const uint32_t perLine = options.recordsPerLine();
     const uint32_t clustersPerLine = (perLine + kMaxClusterSize - 1) / kMaxClusterSize;
-    const uint32_t clusterSize = perLine / clustersPerLine;
-    const uint32_t perPage = std::max(perLine, kPageBytes / options.recordBytes / perLine * perLine);
-    return {tree.nodeOrder(Packer(tree, clusterSize, perPage).run())};
+    const uint32_t lineSize = perLine / clustersPerLine;
+    const uint32_t pageSize = std::max(lineSize, kPageBytes / options.recordBytes);
+    return {tree.nodeOrder(Packer(tree, lineSize, pageSize).run())};
 }
 
 }  // namespace bvhio

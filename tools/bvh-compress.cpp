@@ -19,6 +19,7 @@ const ToolInfo kTool = {
     "Stores a container's tree in another form, and squeezes its chunks.",
     "  bvh-compress scene.bvhx --codec zstd -o small.bvhx\n"
     "  bvh-compress scene.bvhx --codec topology -o smaller.bvhx\n"
+    "  bvh-compress scene.bvhx --form quantized --record-bytes 8 -o small.bvhx\n"
     "  bvh-compress scene.bvhx --form two-level --blas-form ssh --blas-size 32 -o two-level.bvhx\n"
     "  bvh-compress scene.bvhx --max-slowdown 1.2 --pareto forms.csv -o compact.bvhx\n"
     "  bvh-compress scene.bvhx --geometry draco --position-bits 14 -o rounded.bvhx\n",
@@ -39,6 +40,11 @@ Bvh exactTree(const BvhxFile& file) {
 /// that they do not grow from one compact form to the next.
 Bvh treeFor(std::string_view form, const BvhxFile& file) {
     return form == AabbForm::kName ? decode(file.bvh) : exactTree(file);
+}
+
+bool isInClusters(const EncodedBvh& bvh) {
+    const auto* aabb = std::get_if<AabbForm>(&bvh);
+    return std::holds_alternative<QuantizedShortForm>(bvh) || (aabb != nullptr && !aabb->bvh().slots.empty());
 }
 
 bool isGiven(const CommandLine& line, std::string_view name) {
@@ -162,12 +168,18 @@ ExitCode compress(CommandLine& line) {
         }
         extra["search"] = search.report();
     }
+    if (form == QuantizedForm::kName && quantized.isShort(isInClusters(file.bvh))) {
+        form = QuantizedShortForm::kName;
+        encoding.bits = EncodeOptions{}.bits;
+    }
     pass.recordOptions(search.recordedOptions(line));
     pass.stages().begin("compress");
     if (file.scene.isInstanced()) {
         if (!stays) twoLevel.chooseForInstances(encoding);
         encodeInstances(file, form, encoding, twoLevel.cuts());
     } else if (formNameOf(file.bvh) != form || optionsOf(file.bvh) != encoding) {
+        if (form == QuantizedShortForm::kName && !isInClusters(file.bvh))
+            logInfo("the tree is put in clusters as bvh-relayout --layout clusters does");
         if (form == MvhForm::kName) logInfo("mvh builds a tree of its own from the triangles");
         file.bvh = choose(forms(), "form", form).function(file.scene, treeFor(form, file), encoding);
         dropChunksThatDoNotSurvive(file, Change::reordered);

@@ -3,6 +3,7 @@
 
 #include "common/pass.h"
 #include "common/run_tool.h"
+#include "relayout/clusters.h"
 #include "relayout/layouts.h"
 
 using namespace bvhio;
@@ -29,7 +30,8 @@ class LayoutChoice {
         line.number("--threshold", threshold_, 0, 1,
                     "the least probability at which a treelet goes on to a child");
         line.number("--treelet-size", treeletSize_, 1, UINT32_MAX, "most pairs of siblings in a treelet");
-        line.number("--pointer-bits", pointerBits_, 2, 20, "bits of a reference within a cluster");
+        line.number("--pointer-bits", pointerBits_, SlotMap::kMinPointerBits, SlotMap::kMaxPointerBits,
+                    "bits of a reference within a cluster");
     }
 
     /// Whether weights are visits.
@@ -46,7 +48,7 @@ class LayoutChoice {
         if (!byVisits() && smoothing_ >= 0)
             throw Error(ErrorKind::usage, "--smoothing: is for --probability visits: leave it out");
         if (byVisits() && smoothing_ < 0) smoothing_ = kSmoothing;
-        take(layout, kUsesLines, lineSize_, options.lineSize, 0u);
+        take(layout, kUsesLines | kUsesLineSize, lineSize_, options.lineSize, 0u);
         take(layout, kUsesLines, recordBytes_, options.recordBytes, 0u);
         take(layout, kUsesThreshold, threshold_, options.threshold, -1.0f);
         take(layout, kUsesTreeletSize, treeletSize_, options.treeletSize, 0u);
@@ -57,7 +59,7 @@ class LayoutChoice {
   private:
     void refuseUseless(const Layout& layout) const {
         static constexpr std::pair<std::string_view, uint32_t> kUses[] = {
-            {"--probability", kUsesWeights},      {"--line-size", kUsesLines},
+            {"--probability", kUsesWeights},      {"--line-size", kUsesLines | kUsesLineSize},
             {"--record-bytes", kUsesLines},       {"--threshold", kUsesThreshold},
             {"--treelet-size", kUsesTreeletSize}, {"--pointer-bits", kUsesPointerBits}};
         const std::vector<std::string> given = line_.given();
@@ -88,6 +90,36 @@ class LayoutChoice {
     float threshold_ = -1, smoothing_ = -1;
 };
 
+/// What the report says of clusters, over all trees.
+class ClusterReport {
+  public:
+    void add(const SlotMap& slots) {
+        const SlotStats stats = statsOf(slots);
+        sum_.slots += stats.slots;
+        sum_.records += stats.records;
+        sum_.glue += stats.glue;
+        sum_.empty += stats.empty;
+        sum_.clusters += stats.clusters;
+        pointerBits_ = slots.pointerBits;
+    }
+    Report report() const {
+        if (sum_.records == 0) return Report::object();
+        return {{"clusters",
+                 {{"records", sum_.records},
+                  {"clusters", sum_.clusters},
+                  {"glue_share", sum_.glueShare()},
+                  {"padding_share", sum_.paddingShare()},
+                  {"fill", sum_.fill(pointerBits_)},
+                  {"bytes_per_record", double(sum_.slots) * kSlotBytes / double(sum_.records)}}}};
+    }
+
+  private:
+    static constexpr double kSlotBytes = 8;
+
+    SlotStats sum_;
+    uint32_t pointerBits_ = 0;
+};
+
 ExitCode relayout(CommandLine& line) {
     LayoutChoice choice(line);
     Pass pass(line, "INPUT", "the container; - or nothing: standard input");
@@ -100,15 +132,17 @@ ExitCode relayout(CommandLine& line) {
                     "--probability visits: the container has none: record them by bvh-trace --record-visits");
     pass.stages().begin("relayout");
     std::vector<uint32_t> visits;
+    ClusterReport clusters;
     changeTrees(file, [&](const Scene&, const Bvh& bvh, bool) {
         if (choice.byVisits()) options.weights = weightsByVisits(bvh, file.visits, choice.smoothing());
-        const NodeOrder order = layout.function(bvh, options).order;
-        if (!file.visits.empty()) visits = inNodeOrder(file.visits, order);
-        return applyNodeOrder(bvh, order);
+        const LayoutResult result = layout.function(bvh, options);
+        if (!file.visits.empty()) visits = inNodeOrder(file.visits, result.order);
+        clusters.add(result.slots);
+        return applyLayout(bvh, result);
     });
     dropChunksThatDoNotSurvive(file, Change::reordered);
     if (!visits.empty()) file.visits = std::move(visits);
-    pass.finish(file, {}, "relayout");
+    pass.finish(file, {}, "relayout", clusters.report());
     return ExitCode::done;
 }
 

@@ -23,10 +23,11 @@ MAX_EXPANSION = 32
 MAX_FLOAT = struct.unpack("<f", b"\xFF\xFF\x7F\x7F")[0]
 UNSUPPORTED = {1003, 1004, 1014, 2001, 2008, 2010}
 CRITICAL = 1
+LINES = (1, 2, 4, 8, 16, 32, 64)
 
 # Known types in file order: flags.
-KNOWN = {"SCEN": 7, "VERT": 7, "TRIS": 7, "DRCO": 7, "GEOM": 7, "SRCP": 7, "MESH": 7, "INST": 7, "TREE": 1, "ENTR": 1, "FORM": 1, "NODE": 1, "TLAS": 1, "ROOT": 1, "BLAS": 1, "PRIM": 1,
-         "TOPO": 1, "VISI": 0, "PROV": 6}
+KNOWN = {"SCEN": 7, "VERT": 7, "TRIS": 7, "DRCO": 7, "GEOM": 7, "SRCP": 7, "MESH": 7, "INST": 7, "TREE": 1, "ENTR": 1, "FORM": 1, "NODE": 1, "TLAS": 1, "ROOT": 1, "BLAS": 1, "LAST": 1,
+         "PRIM": 1, "TOPO": 1, "CLUS": 0, "VISI": 0, "PROV": 6}
 
 
 class Rejected(Exception):
@@ -633,6 +634,97 @@ def read_quantized(chunks, slots, references):
     return quantized_nodes(chunks.expect("NODE", 16 * count), root, bits, references)[0], chunks.expect("PRIM", 4 * references)
 
 
+def read_quantized_short(chunks, slots, references):
+    reject_if(references > 2**27 or (slots == 2 and references > 32), 2011, "references")
+    raw = chunks.expect("FORM", 64)
+    reject_if(any(raw[40:]), 2006, "FORM: reserved")
+    *root, bits, line_slots, count = struct.unpack_from("<6f2IQ", raw)
+    check_root(root)
+    reject_if(not 2 <= bits <= 10 or line_slots not in LINES or count >= 2**32, 2019, "FORM")
+    words = list(struct.iter_unpack("<2I", chunks.expect("NODE", 8 * count)))
+    marks = None
+    if references != slots // 2:
+        raw = chunks.expect("LAST", 4 * ((references + 31) // 32 + 1))
+        marks = [raw[i // 8] >> i % 8 & 1 for i in range(8 * len(raw))]
+        reject_if(any(marks[references:]), 2006, "LAST: a bit of no entry")
+    primitives = chunks.expect("PRIM", 4 * references)
+
+    def leaf_size(first):
+        size = 1 if marks is None else next((k for k in range(1, 33) if first + k <= references and marks[first + k - 1]), 0)
+        reject_if(first >= references or size == 0, 3004, f"a leaf from entry {first} on")
+        return size
+
+    pair_of = {}
+    for slot, (low, _) in enumerate(words):
+        if low >= 2**21:
+            pair_of[slot] = len(pair_of)
+    extent = [root[i + 3] - root[i] for i in range(3)]
+    nodes = [(*root, 2, 0) if count else (*root, 0, references), (0,) * 8]
+    reached, started = {0: (0, 0, (0.0,) * 6)}, 0  # cluster's first slot, its first entry, insets
+    reject_if(count > 0 and 0 not in pair_of, 3002, "slot 0")
+    for slot, (low, high) in enumerate(words):
+        if slot not in reached:
+            reject_if(low or high, 3003, f"slot {slot}")
+            continue
+        first, entry, parent = reached[slot]
+        if first == slot:
+            started = slot
+        reject_if(first != started, 3011, f"slot {slot}")
+        if low < 2**21:
+            target = (low | high >> 27 << 21) * line_slots
+            reject_if(not slot < target < count or target not in pair_of, 3002, f"slot {slot}")
+            reject_if(target in reached, 3003, f"slot {target}")
+            reached[target] = (target, high & (2**27 - 1), parent)
+            continue
+        planes = [word >> 6 * i & 63 for word in (low, high) for i in range(3)]
+        steps = [((extent[i] - parent[i]) - parent[i + 3]) * 2.0**-6 for i in range(3)]
+        for child, word in enumerate((low, high)):
+            own = [parent[i] + planes[i] * steps[i % 3] if (low, high)[i // 3] >> (18 + i % 3) & 1 == child else parent[i] for i in range(6)]
+            box, reference = box_of(root, own), word >> 21
+            if reference >= 2**bits:
+                leaf = entry + reference - 2**bits
+                nodes.append((*box, leaf, leaf_size(leaf)))
+                continue
+            target = first + reference
+            reject_if(not slot < target < count or words[target] == (0, 0), 3002, f"slot {slot}")
+            reject_if(target in reached, 3003, f"slot {target}")
+            reached[target] = (first, entry, own)
+            if target not in pair_of:
+                target = (words[target][0] | words[target][1] >> 27 << 21) * line_slots
+            nodes.append((*box, 2 * pair_of.get(target, 0) + 2, 0))
+    reject_if(2 * len(pair_of) + 2 != slots, 2011, "records")
+    if count == 0:
+        reject_if(leaf_size(0) != references, 3004, "the root")
+    return nodes, primitives
+
+
+def check_clusters(nodes, raw):
+    """CLUS beside a tree that is right."""
+    reject_if(len(raw) < 20 or len(raw) % 4 != 0, 2005, "CLUS")
+    bits, line_slots, *words = struct.unpack(f"<{len(raw) // 4}I", raw)
+    reject_if(words.pop(0) != 0 or words.pop(0) != 0, 2006, "CLUS: reserved")
+    reject_if(not 2 <= bits <= 10 or line_slots not in LINES, 3011, "CLUS: parameters")
+    parents = {node[6] // 2 - 1: i // 2 - 1 for i, node in enumerate(nodes) if i != 1 and node[7] == 0}  # of the root's children: -1
+    records, glue = {}, {}
+    for slot, word in enumerate(words):
+        if word != 2**32 - 1:
+            found, pair = (glue if word >> 31 else records), word & (2**31 - 1)
+            reject_if(pair not in parents or pair in found, 3011, f"slot {slot}")
+            found[pair] = slot
+    reject_if(len(records) != len(parents) or records.get(0) != 0 or 0 in glue, 3011, "CLUS: pairs")
+    cluster_of, cluster = [], 0
+    for slot, word in enumerate(words):
+        if word in records and (word in glue or word == 0):
+            cluster = slot
+            reject_if(slot % line_slots != 0, 3011, f"slot {slot}")
+        reject_if(word != 2**32 - 1 and slot - cluster >= 2**bits, 3011, f"slot {slot}")
+        cluster_of.append(cluster)
+    for pair, parent in parents.items():
+        if parent >= 0:
+            named = glue.get(pair, records[pair])
+            reject_if(cluster_of[named] != cluster_of[records[parent]] or not records[parent] < named <= records[pair], 3011, f"pair {pair}")
+
+
 def binary32(x):
     """Of a sum or product of two binary32 numbers in binary64: rounding twice gives what rounding once does."""
     try:
@@ -679,7 +771,7 @@ def read_mvh(chunks, slots, references):
     return nodes, chunks.expect("PRIM", 4 * references)
 
 
-FORMS = {b"aabb": read_aabb, b"quan": read_quantized, b"ssh ": read_ssh, b"mvh ": read_mvh, b"two ": read_two_level}
+FORMS = {b"aabb": read_aabb, b"quan": read_quantized, b"qush": read_quantized_short, b"ssh ": read_ssh, b"mvh ": read_mvh, b"two ": read_two_level}
 
 
 def check_tree(nodes, raw_primitives, slots, references, stated_depth, scene):
@@ -747,6 +839,8 @@ def read_tree(chunks, scene):
     else:
         nodes, primitives = FORMS[form](chunks, slots, references)
     check_tree(nodes, primitives, slots, references, depth, scene)
+    if form == b"aabb" and chunks.next_is("CLUS"):
+        check_clusters(nodes, chunks.expect("CLUS"))
     if form == b"aabb" and chunks.next_is("VISI"):
         summary["rays"] = check_visits(struct.unpack(f"<{slots // 2}I", chunks.expect("VISI", 2 * slots)), nodes)
     return summary

@@ -19,6 +19,7 @@ std::span<const EncodingCandidate> encodingCandidates() {
     static const EncodingCandidate kTable[] = {
         {"aabb", ""},
         {"quantized", ""},
+        {"quantized-short", ""},
         {"ssh", ""},
         {"mvh", ""},
         {"mvh", "--leaf-size 8", {.leafSize = 8}},

@@ -38,7 +38,7 @@ Bvh exactTreeOfParts(const Scene& scene, const Bvh& bvh) {
     const auto boxOf = [&](std::span<const uint32_t> range, Aabb* boxes) {
         for (size_t i = 0; i < range.size(); ++i) boxes[i] = leafBoxes[range[i]];
     };
-    return {refit({bvh.nodes, std::move(references)}, boxOf).nodes, bvh.primitives};
+    return {refit({bvh.nodes, std::move(references)}, boxOf).nodes, bvh.primitives, bvh.slots};
 }
 
 }  // namespace

@@ -52,6 +52,10 @@ enum class BlasForm : uint8_t { mvh, ssh, quantized, aabb };
 struct EncodeOptions {
     uint32_t bits = 8;  // quantized, a level of two in that form, too: of a plane, 5 to 8
 
+    // quantized-short, for trees that are not in clusters
+    uint32_t pointerBits = 8;  // 6 to 10
+    uint32_t lineSize = 64;    // bytes: a power of two, 8 to 512
+
     // mvh; 0 = as suits the tree
     uint32_t leafSize = 4;
     float zeta = 0, zetaOfBoth = 0;

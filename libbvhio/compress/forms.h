@@ -7,13 +7,14 @@
 #include "compress/aabb_form.h"
 #include "compress/mvh_form.h"
 #include "compress/quantized_form.h"
+#include "compress/quantized_short_form.h"
 #include "compress/ssh_form.h"
 #include "compress/two_level_form.h"
 #include "core/choice.h"
 
 namespace bvhio {
 
-using EncodedBvh = std::variant<AabbForm, QuantizedForm, SshForm, MvhForm, TwoLevelForm>;
+using EncodedBvh = std::variant<AabbForm, QuantizedForm, QuantizedShortForm, SshForm, MvhForm, TwoLevelForm>;
 
 /// A row of the table that the variant makes: a form's name, its summary and its encoder.
 using FormChoice = Choice<EncodedBvh (*)(const Scene&, const Bvh&, const EncodeOptions&)>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compress/divide_leaves.h"
+#include "compress/inset_grid.h"
 #include "core/buffer.h"
 #include "core/error.h"
 
@@ -15,65 +16,9 @@ struct Parent {
     size_t tree = 0;
 };
 
-/// A box whose sides may be moved inwards by steps, up to 2^bits - 1 of them. Coordinates of sides 3 to 5 are
-/// negated here: for all sides larger ones are further inside.
-class Grid {
-  public:
-    Grid(const RootPlaces& places, const Parent& parent, uint32_t bits)
-        : box_(parent.box), bounds_(places.bounds[parent.tree]), most_((1u << bits) - 1) {
-        const InsetFrame& frame = places.frame(parent.tree);
-        for (int axis = 0; axis < 3; ++axis) {
-            step_[axis] = frame.size(box_, axis) / double(1u << bits);
-            root_[axis] = frame.bounds().min[axis];
-            root_[axis + 3] = -frame.bounds().max[axis];
-        }
-    }
-
-    /// The box of a child.
-    InsetBox child(const QuantizedRecord& record, uint32_t child) const {
-        InsetBox result = box_;
-        for (uint32_t side = 0; side < 6; ++side)
-            if (uint32_t(record.isRights(side)) == child)
-                (side < 3 ? result.min : result.max)[side % 3] = inset(side, record.inset(side));
-        return result;
-    }
-
-    /// Sets the planes of a record for two boxes: each as far inwards as the box allows that lies further
-    /// inside.
-    void setPlanes(QuantizedRecord& record, const Aabb& left, const Aabb& right) const {
-        double stepsOfUnit[3];
-        for (int axis = 0; axis < 3; ++axis) stepsOfUnit[axis] = 1 / step_[axis];
-        for (uint32_t side = 0; side < 6; ++side) {
-            const double start = plane(side, 0);
-            const double outermost = std::max<double>(InsetFrame::upwards(start), coordinate(bounds_, side));
-            const double toLeft = coordinate(left, side), toRight = coordinate(right, side);
-            const bool isRights = toRight > toLeft;
-            const double target = isRights ? toRight : toLeft;
-            if (target <= outermost) continue;
-            const double estimate = (target - start) * stepsOfUnit[side % 3];
-            uint32_t steps = estimate < most_ ? uint32_t(estimate) : most_;
-            while (steps > 0 && plane(side, steps) > target) --steps;
-            while (steps < most_ && plane(side, steps + 1) <= target) ++steps;
-            // Where that takes no float off the box the plane stays: so what a decoded tree has is encoded to
-            // itself.
-            if (plane(side, steps) > outermost) record.setPlane(side, steps, isRights);
-        }
-    }
-
-  private:
-    double inset(uint32_t side, uint32_t steps) const {
-        return (side < 3 ? box_.min : box_.max)[side % 3] + steps * step_[side % 3];
-    }
-    double plane(uint32_t side, uint32_t steps) const { return root_[side] + inset(side, steps); }
-    static double coordinate(const Aabb& box, uint32_t side) {
-        return side < 3 ? box.min[int(side)] : -box.max[int(side) - 3];
-    }
-
-    const InsetBox& box_;
-    const Aabb& bounds_;  // of the tree's root
-    double step_[3], root_[6];
-    uint32_t most_;
-};
+InsetGrid gridIn(const RootPlaces& places, const Parent& parent, uint32_t bits) {
+    return {places.frame(parent.tree), parent.box, places.bounds[parent.tree], bits};
+}
 
 /// The records of trees whose nodes below the roots are `nodes`, in slots from `firstSlot` on.
 Buffer<QuantizedRecord> encodeRecords(std::span<const Node> roots, std::span<const Node> nodes,
@@ -85,7 +30,7 @@ Buffer<QuantizedRecord> encodeRecords(std::span<const Node> roots, std::span<con
         if (!roots[i].isLeaf()) parents[recordBelow(roots[i])] = {places.insets[i], i};
     for (size_t r = 0; r < records.size(); ++r) {
         const Node* pair = &nodes[2 * r];
-        const Grid grid(places, parents[r], bits);
+        const InsetGrid grid = gridIn(places, parents[r], bits);
         QuantizedRecord record{};
         grid.setPlanes(record, pair[0].bounds, pair[1].bounds);
         for (uint32_t child = 0; child < 2; ++child) {
@@ -122,7 +67,7 @@ void decodeRecords(std::span<const QuantizedRoot> roots, std::span<const Quantiz
     for (size_t r = 0; r < records.size(); ++r) {
         const QuantizedRecord& record = records[r];
         const size_t tree = parents[r].tree;
-        const Grid grid(places, parents[r], bits);
+        const InsetGrid grid = gridIn(places, parents[r], bits);
         for (uint32_t child = 0; child < 2; ++child) {
             const InsetBox box = grid.child(record, child);
             const uint32_t word = record.children[child];

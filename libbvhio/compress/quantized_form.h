@@ -141,28 +141,11 @@ class QuantizedForm {
         PlacedBox left, right;
         placeChildren(record, from.cursor.box, left, right);
         const EnteredOfTwo found = ray.clip(left, right, tLimit);
-        const auto enter = [&](uint32_t child, const PlacedBox& box, Entered<Cursor>& entered) {
-            entered = {{box, record.children[child], record.more(child)}, found.enter[child]};
+        const auto enter = [&](uint32_t child, Entered<Cursor>& entered) {
+            entered = {{child == 0 ? left : right, record.children[child], record.more(child)},
+                       found.enter[child]};
         };
-        switch (found.entered) {
-            case 0:
-                return 0;
-            case 1:
-                enter(0, left, children[0]);
-                return 1;
-            case 2:
-                enter(1, right, children[0]);
-                return 1;
-            default:
-                if (found.enter[1] < found.enter[0]) {
-                    enter(1, right, children[0]);
-                    enter(0, left, children[1]);
-                } else {
-                    enter(0, left, children[0]);
-                    enter(1, right, children[1]);
-                }
-                return 2;
-        }
+        return enterInOrder(found, enter, children);
     }
 
     bool isLeaf(const Cursor& cursor) const { return QuantizedRecord::isLeaf(cursor.word); }

@@ -46,6 +46,7 @@
 #include <cstring>
 #include <limits>
 
+#include "compress/form_concept.h"
 #include "core/bvh.h"
 #include "core/intersect.h"
 
@@ -81,6 +82,31 @@ struct EnteredOfTwo {
     float enter[2];    // where
     uint32_t entered;  // bit 0: the first, bit 1: the second
 };
+
+/// Which of two boxes a ray enters as `step` of a form tells it: the nearer first. `enter(child, entered)`
+/// writes one.
+template <class C, class Enter>
+BVHIO_INLINE int enterInOrder(const EnteredOfTwo& found, const Enter& enter, Entered<C>* children) {
+    switch (found.entered) {
+        case 0:
+            return 0;
+        case 1:
+            enter(0, children[0]);
+            return 1;
+        case 2:
+            enter(1, children[0]);
+            return 1;
+        default:
+            if (found.enter[1] < found.enter[0]) {
+                enter(1, children[0]);
+                enter(0, children[1]);
+            } else {
+                enter(0, children[0]);
+                enter(1, children[1]);
+            }
+            return 2;
+    }
+}
 
 /// Where a ray sees planes. A ray is regular unless a component of its direction is zero or extreme, or it
 /// sees the root's box extremely far away; for regular rays places are parameters.

@@ -5,6 +5,7 @@
 
 #include "core/aabb.h"
 #include "core/shared_array.h"
+#include "core/slot_map.h"
 
 namespace bvhio {
 
@@ -43,6 +44,9 @@ static_assert(sizeof(Node) == 32);
 struct Bvh {
     SharedArray<Node> nodes;
     SharedArray<uint32_t> primitives;
+    /// How this order of pairs lies in clusters, where a layout made some. Whatever changes the order or the
+    /// topology leaves it out.
+    SlotMap slots{};
 
     /// Nodes in the tree: the unused slot does not count.
     size_t nodeCount() const { return nodes.size() - 1; }

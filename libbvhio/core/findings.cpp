@@ -61,6 +61,7 @@ std::span<const FindingKind> findingKinds() {
         {depth, invalid, "the tree is too deep"},
         {statedDepth, invalid, "the tree's depth is not the stated one"},
         {nodeField, invalid, "a field of a node has a value that means nothing"},
+        {slots, invalid, "the clusters are not of this tree"},
 
         {boxNotFinite, invalid, "a node's box is not finite or has min > max"},
         {childOutsideParent, invalid, "a child's box leaves its parent's"},

@@ -66,6 +66,7 @@ enum class FindingId : uint32_t {
     depth = 3008,
     statedDepth = 3009,
     nodeField = 3010,
+    slots = 3011,
 
     boxNotFinite = 4001,
     childOutsideParent = 4002,

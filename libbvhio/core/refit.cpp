@@ -50,7 +50,7 @@ Bvh refit(const Bvh& bvh, const PrimitiveBounds& primitiveBounds) {
     for (size_t i = nodes.size(); i-- > 0;)
         if (i != 1 && !nodes[i].isLeaf())
             nodes[i].bounds = unite(nodes[nodes[i].left()].bounds, nodes[nodes[i].right()].bounds);
-    return {std::move(nodes), bvh.primitives};
+    return {std::move(nodes), bvh.primitives, bvh.slots};
 }
 
 }  // namespace bvhio

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compress/aabb_form.h"
+#include "file/cluster_chunk.h"
 #include "file/scene_chunks.h"
 #include "file/topology.h"
 #include "file/tree_chunks.h"
@@ -18,23 +19,30 @@ struct FormChunks<AabbForm> {
     static void write(ContainerWriter& writer, const AabbForm& form) {
         writeArrayChunk(writer, kNodesType, form.bvh().nodes);
         writeArrayChunk(writer, kPrimitivesType, form.bvh().primitives);
+        writeClusters(writer, form.bvh().slots);
     }
     /// Without boxes, which come back from the scene's triangles.
     static void writeTopology(ContainerWriter& writer, const AabbForm& form, const Scene& scene) {
         writeArrayChunk(writer, kPrimitivesType, form.bvh().primitives);
         writeChunk(writer, kTopologyType, topologyPayload(form.bvh(), boundsOfTriangles(scene)));
+        writeClusters(writer, form.bvh().slots);
     }
     static AabbForm read(ChunkSequence& chunks, const TreeParameters& parameters, const Scene& scene) {
-        if (chunks.nextIs(kPrimitivesType)) return AabbForm(readWithoutBoxes(chunks, parameters, scene));
+        Bvh bvh = chunks.nextIs(kPrimitivesType) ? readWithoutBoxes(chunks, parameters, scene)
+                                                 : readWithBoxes(chunks, parameters, scene);
+        if (chunks.nextIs(kClustersType)) readClusters(chunks, bvh);
+        return AabbForm(std::move(bvh));
+    }
+
+  private:
+    static Bvh readWithBoxes(ChunkSequence& chunks, const TreeParameters& parameters, const Scene& scene) {
         Bvh bvh;
         bvh.nodes = chunks.expectArray<Node>(kNodesType, parameters.nodeSlots);
         const uint64_t nodesOffset = chunks.payloadOffset();
         bvh.primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
         judgeTree(chunks, bvh, parameters, scene, nodesOffset, sizeof(Node));
-        return AabbForm(std::move(bvh));
+        return bvh;
     }
-
-  private:
     static Bvh readWithoutBoxes(ChunkSequence& chunks, const TreeParameters& parameters, const Scene& scene) {
         const auto primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
         for (const uint32_t primitive : primitives)

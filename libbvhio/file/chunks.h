@@ -28,6 +28,8 @@ inline constexpr uint32_t kBlasType = chunkType("BLAS");
 inline constexpr uint32_t kPrimitivesType = chunkType("PRIM");
 inline constexpr uint32_t kTopologyType = chunkType("TOPO");
 inline constexpr uint32_t kVisitsType = chunkType("VISI");
+inline constexpr uint32_t kLastEntriesType = chunkType("LAST");
+inline constexpr uint32_t kClustersType = chunkType("CLUS");
 
 /// A row of the table of known chunks.
 struct ChunkKind {

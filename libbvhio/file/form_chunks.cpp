@@ -7,6 +7,7 @@
 #include "file/aabb_chunks.h"
 #include "file/mvh_chunks.h"
 #include "file/quantized_chunks.h"
+#include "file/quantized_short_chunks.h"
 #include "file/scene_chunks.h"
 #include "file/ssh_chunks.h"
 #include "file/two_level_chunks.h"

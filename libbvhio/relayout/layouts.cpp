@@ -1,6 +1,7 @@
 #include "relayout/layouts.h"
 
 #include "relayout/bfs.h"
+#include "relayout/clusters.h"
 #include "relayout/col.h"
 #include "relayout/dfs.h"
 #include "relayout/odfs.h"
@@ -32,6 +33,12 @@ std::span<const Layout> layouts() {
         {"pack",
          "lines of connected pairs that rays enter least often, in pages: fewest cache misses",
          {layoutPack, kUsesWeights | kUsesLines}},
+        {"clusters",
+         "clusters for records of 8 bytes with short pointers, cut at the least cost",
+         {layoutClusters, kUsesWeights | kUsesLineSize | kUsesPointerBits}},
+        {"clusters-paper",
+         "the same as their paper grows them",
+         {layoutClustersAsPaper, kUsesWeights | kUsesLineSize | kUsesPointerBits}},
     };
     return kTable;
 }

@@ -15,6 +15,7 @@ enum LayoutUses : uint32_t {
     kUsesThreshold = 4,
     kUsesTreeletSize = 8,
     kUsesPointerBits = 16,
+    kUsesLineSize = 32,  // without recordBytes
 };
 
 struct LayoutOptions {
@@ -33,6 +34,8 @@ struct LayoutOptions {
 
 struct LayoutResult {
     NodeOrder order;
+    /// How the tree in that order lies in clusters, where the layout makes some.
+    SlotMap slots{};
 };
 
 /// What a layout does, and the options that it has a use for.

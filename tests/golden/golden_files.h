@@ -10,6 +10,7 @@
 #include "common/shuffled_tree.h"
 #include "file/bvhx_file.h"
 #include "file/container.h"
+#include "relayout/clusters.h"
 
 namespace bvhio {
 
@@ -111,6 +112,14 @@ inline BvhxFile shuffledGrid() {
     return file;
 }
 
+/// A file with its tree in clusters.
+inline BvhxFile inClusters(BvhxFile file, uint32_t pointerBits, uint32_t lineSize) {
+    const Bvh bvh = decode(file.bvh);
+    file.bvh =
+        AabbForm(applyLayout(bvh, layoutClusters(bvh, {.lineSize = lineSize, .pointerBits = pointerBits})));
+    return file;
+}
+
 /// A file with its tree in another form.
 inline BvhxFile inForm(BvhxFile file, std::string_view form, const EncodeOptions& options = {}) {
     file.bvh = choose(forms(), "form", form).function(file.scene, decode(file.bvh), options);
@@ -176,6 +185,14 @@ inline std::vector<GoldenFile> goldenFiles() {
         {"grid_quantized_zstd", inForm(grid(), "quantized"), {.codec = "zstd"}},
         {"grid_quantized_6", inForm(grid(), "quantized", {.bits = 6}), {}},
         {"one_leaf_quantized", inForm(oneLeaf(), "quantized"), {}},
+        {"two_triangles_quantized_short", inForm(twoTriangles(), "quantized-short"), {}},
+        {"grid_quantized_short", inForm(grid(), "quantized-short", {.pointerBits = 3, .lineSize = 16}), {}},
+        {"one_leaf_quantized_short", inForm(oneLeaf(), "quantized-short"), {}},
+        {"two_triangles_clusters", inClusters(twoTriangles(), 8, 64), {}},
+        {"grid_clusters", inClusters(grid(), 3, 16), {}},
+        {"grid_clusters_topology",
+         inClusters(grid(), 3, 16),
+         {.codec = "zstd", .nodes = NodeEncoding::topology}},
         {"two_triangles_ssh", inForm(twoTriangles(), "ssh"), {}},
         {"grid_ssh_zstd", inForm(grid(), "ssh"), {.codec = "zstd"}},
         {"two_triangles_topology", twoTriangles(), {.nodes = NodeEncoding::topology}},

@@ -68,6 +68,8 @@ TEST(Golden, workedBytesOfThePagesAreTrue) {
                                      {"aabb", ""},
                                      {"topology", "_topology"},
                                      {"quantized", "_quantized"},
+                                     {"quantized-short", "_quantized_short"},
+                                     {"clusters", "_clusters"},
                                      {"ssh", "_ssh"},
                                      {"mvh", "_mvh"},
                                      {"two-level", "_two_level"},

@@ -18,6 +18,11 @@ namespace {
 template <class Function>
 void forEachForm(const Scene& scene, const Bvh& bvh, const Function& function) {
     for (const FormChoice& form : forms()) function(std::string(form.name), form.function(scene, bvh, {}));
+    EncodeOptions manyClusters;
+    manyClusters.pointerBits = 3;
+    manyClusters.lineSize = 16;
+    function("quantized-short in many clusters",
+             EncodedBvh(QuantizedShortForm::encode(scene, bvh, manyClusters)));
 }
 
 /// Rays, and the same again with limits around each one's hit.

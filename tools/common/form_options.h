@@ -26,31 +26,42 @@ inline void refuseForOtherForm(std::initializer_list<std::pair<std::string_view,
                                               .append(": leave it out"));
 }
 
-/// The option of the quantized form: 0 where not given.
+/// Options of the quantized forms: 0 where not given.
 class QuantizedOptions {
   public:
     explicit QuantizedOptions(CommandLine& line) {
         line.number("--bits", bits_, QuantizedRecord::kMinBits, QuantizedRecord::kMaxBits,
                     "quantized: bits a plane");
+        line.number("--record-bytes", recordBytes_, 8, 16,
+                    "quantized: bytes of two siblings' record, 8 or 16");
     }
 
     /// Adds what was given to the options for `form`, and fills in the rest. For after TwoLevelOptions.
     void addTo(EncodeOptions& options, std::string_view form) {
         const bool isLevel = form == TwoLevelForm::kName && (options.tlasForm == TlasForm::quantized ||
                                                              options.blasForm == BlasForm::quantized);
-        if (form == QuantizedForm::kName || isLevel) {
-            if (bits_ == 0) bits_ = options.bits;
-            options.bits = bits_;
-        } else if (form == TwoLevelForm::kName) {
-            if (bits_ != 0)
-                throw Error(ErrorKind::usage, "--bits: neither level is in the quantized form: leave it out");
-        } else {
+        if (form != QuantizedForm::kName)
+            refuseForOtherForm({{"--record-bytes", recordBytes_ != 0}}, QuantizedForm::kName, form);
+        if (form == TwoLevelForm::kName && !isLevel && bits_ != 0)
+            throw Error(ErrorKind::usage, "--bits: neither level is in the quantized form: leave it out");
+        if (form != QuantizedForm::kName && form != TwoLevelForm::kName)
             refuseForOtherForm({{"--bits", bits_ != 0}}, QuantizedForm::kName, form);
-        }
+        if (recordBytes_ != 0 && recordBytes_ != 8 && recordBytes_ != 16)
+            throw Error(ErrorKind::usage, "--record-bytes: records have 8 bytes or 16");
+        if (recordBytes_ == 8 && bits_ != 0 && bits_ != ShortRecord::kBits)
+            throw Error(ErrorKind::usage, "--bits: records of 8 bytes have 6: leave it out");
+        isShort_ = recordBytes_ == 8;
+        isShortInClusters_ = recordBytes_ == 0 && bits_ == ShortRecord::kBits;
+        if (form != QuantizedForm::kName && !isLevel) return;
+        if (bits_ == 0) bits_ = isShort_ ? ShortRecord::kBits : options.bits;
+        options.bits = bits_;
     }
+    /// Whether form quantized is to have 8-byte records. For after addTo.
+    bool isShort(bool inClusters) const { return isShort_ || (isShortInClusters_ && inClusters); }
 
   private:
-    uint32_t bits_ = 0;
+    uint32_t bits_ = 0, recordBytes_ = 0;
+    bool isShort_ = false, isShortInClusters_ = false;
 };
 
 /// Options of the two-level form: empty or 0 where not given.

@@ -1,0 +1,104 @@
+#include "core/cluster_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/random.h"
+
+namespace bvhio {
+namespace {
+
+/// A random tree of items; children weigh no more than their parents.
+std::vector<ClusterItem> randomItems(uint32_t count, Random& random) {
+    std::vector<ClusterItem> items(count);
+    items[0].weight = 100;
+    for (uint32_t i = 1; i < count; ++i) {
+        uint32_t parent, side;
+        do {
+            parent = random.below(i);
+            side = random.below(2);
+        } while (items[parent].children[side] != ClusterItem::kNone);
+        items[parent].children[side] = i;
+        items[i].weight = items[parent].weight * double(random.below(5)) / 4;
+    }
+    return items;
+}
+
+/// The expected steps from one line to another.
+double stepsBetween(const std::vector<ClusterItem>& items, const ClusterLines& lines) {
+    std::vector<size_t> lineOf(items.size());
+    for (size_t line = 0; line < lines.size(); ++line)
+        for (const uint32_t item : lines[line]) lineOf[item] = line;
+    double steps = 0;
+    for (size_t i = 0; i < items.size(); ++i)
+        for (const uint32_t child : items[i].children)
+            if (child != ClusterItem::kNone && lineOf[child] != lineOf[i]) steps += items[child].weight;
+    return steps;
+}
+
+void expectWhole(const std::vector<ClusterItem>& items, const ClusterLines& lines, uint32_t lineSlots) {
+    std::vector<uint32_t> place(items.size(), 0);
+    uint32_t next = 0;
+    for (const std::vector<uint32_t>& line : lines) {
+        EXPECT_LE(line.size(), lineSlots);
+        EXPECT_FALSE(line.empty());
+        for (const uint32_t item : line) {
+            ASSERT_EQ(place[item], 0u) << "twice";
+            place[item] = ++next;
+        }
+    }
+    EXPECT_EQ(next, items.size());
+    for (size_t i = 0; i < items.size(); ++i)
+        for (const uint32_t child : items[i].children)
+            if (child != ClusterItem::kNone) {
+                EXPECT_LT(place[i], place[child]) << "before its parent";
+            }
+}
+
+TEST(ClusterLines, holdEveryItemBehindItsParent) {
+    Random random(1);
+    for (const uint32_t lineSlots : {1u, 2u, 8u, 64u})
+        for (const uint32_t count : {1u, 2u, 7u, 100u}) {
+            const std::vector<ClusterItem> items = randomItems(count, random);
+            expectWhole(items, packLines(items, lineSlots), lineSlots);
+            expectWhole(items, growLines(items, lineSlots), lineSlots);
+        }
+}
+
+// Few of them end short: merging is what keeps padding low.
+TEST(ClusterLines, areNearlyFull) {
+    Random random(2);
+    const std::vector<ClusterItem> items = randomItems(1000, random);
+    EXPECT_LE(packLines(items, 8).size(), 1000 / 8 + 8);
+    EXPECT_LE(growLines(items, 8).size(), 1000 / 8 + 8);
+}
+
+// Against every way to cut a small tree into lines.
+TEST(ClusterLines, takeTheFewestStepsBetweenThem) {
+    Random random(5);
+    for (int round = 0; round < 40; ++round) {
+        const std::vector<ClusterItem> items = randomItems(1 + random.below(10), random);
+        double least = std::numeric_limits<double>::infinity();
+        for (uint32_t cuts = 0; cuts < 1u << items.size(); cuts += 2) {
+            std::vector<uint32_t> sizes(items.size(), 1);
+            double steps = 0;
+            bool fits = true;
+            for (size_t i = items.size(); i-- > 0;) {
+                for (const uint32_t child : items[i].children)
+                    if (child != ClusterItem::kNone) {
+                        const bool isCut = (cuts >> child & 1) != 0;
+                        steps += isCut ? items[child].weight : 0;
+                        sizes[i] += isCut ? 0 : sizes[child];
+                    }
+                fits &= sizes[i] <= 3;
+            }
+            if (fits) least = std::min(least, steps);
+        }
+        // Lines that share what others left can only save steps.
+        EXPECT_LE(stepsBetween(items, packLines(items, 3)), least + 1e-9) << round;
+    }
+}
+
+}  // namespace
+}  // namespace bvhio

@@ -103,6 +103,23 @@ QuantizedShortForm QuantizedShortForm::encode(const Scene&, const Bvh& given, co
         leafSizes.push_back(leaf.primitiveCount);
         next += leaf.primitiveCount;
     };
+    std::vector<uint32_t> firstOf(bvh.nodes.size());  // of leaves
+    std::vector<uint32_t> waiting;                    // nodes, the next one last
+    // Of all leaves of a cluster, depth first: what is near in the tree is near in space.
+    const auto ownLeavesFrom = [&](uint32_t root) {
+        waiting.assign({2 * root + 3, 2 * root + 2});
+        while (!waiting.empty()) {
+            const uint32_t index = waiting.back();
+            waiting.pop_back();
+            const Node& node = bvh.nodes[index];
+            if (node.isLeaf()) {
+                firstOf[index] = next;
+                own(node);
+            } else if (!at.startsCluster(pairBelow(node))) {
+                waiting.insert(waiting.end(), {node.right(), node.left()});
+            }
+        }
+    };
     for (size_t slot = 0; slot < slots.size(); ++slot) {
         slots[slot] = {};
         const uint32_t pair = map.words[slot];
@@ -111,6 +128,7 @@ QuantizedShortForm QuantizedShortForm::encode(const Scene&, const Bvh& given, co
             cluster = uint32_t(slot);
             clustersFirst = next;
             if (pair != 0) slots[at.glue[pair]] = ShortRecord::glue(cluster / map.lineSlots, next);
+            ownLeavesFrom(pair);
         }
         const Node* nodes = &bvh.nodes[2 * size_t(pair) + 2];
         const InsetGrid grid(frame, boxes[pair], bounds, ShortRecord::kBits);
@@ -118,8 +136,7 @@ QuantizedShortForm QuantizedShortForm::encode(const Scene&, const Bvh& given, co
         grid.setPlanes(record, nodes[0].bounds, nodes[1].bounds);
         for (uint32_t child = 0; child < 2; ++child) {
             if (nodes[child].isLeaf()) {
-                record.setReference(child, firstLeaf + (next - clustersFirst));
-                own(nodes[child]);
+                record.setReference(child, firstLeaf + firstOf[2 * size_t(pair) + 2 + child] - clustersFirst);
             } else {
                 const uint32_t below = pairBelow(nodes[child]);
                 record.setReference(child, at.named(below) - cluster);

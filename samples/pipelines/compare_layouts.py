@@ -145,7 +145,8 @@ class Row:
 
     def time(self, rays, repeat, *more):
         for order in ORDERS:
-            rate = trace(self.containers[LINES[0]], rays, order, repeat, *more)["mrays_per_second"]
+            report = trace(self.containers[LINES[0]], rays, order, repeat, *more)
+            rate = report["rays"] / 1e6 / max(report["processor_seconds"], 1e-6)
             self.rate[order] = max(self.rate.get(order, 0), rate)
 
 
@@ -330,7 +331,7 @@ def plot(name, drawn, path):
 
     width = min(4, len(drawn))
     figure, axes = plt.subplots(-(-len(drawn) // width), width, figsize=(2.6 * width, 1.9 * -(-len(drawn) // width) + 0.4),
-                                sharex=True, sharey=True, squeeze=False)
+                                sharex=True, sharey=True, squeeze=False, layout="constrained")
     for axis in axes.flat[len(drawn):]:
         axis.set_visible(False)
     for axis, (variant, fetches, size) in zip(axes.flat, drawn):
@@ -342,8 +343,7 @@ def plot(name, drawn, path):
     figure.supxlabel("node fetches, one after the other", fontsize=8)
     figure.supylabel("address, MiB", fontsize=8)
     figure.suptitle(f"{name}: {BUNDLE} neighbouring diffuse rays, in two colours by turns", fontsize=9)
-    figure.tight_layout(pad=0.6)
-    figure.savefig(path, dpi=90)
+    figure.savefig(path, dpi=80)
 
 
 def main():
@@ -372,7 +372,8 @@ def main():
             visits = ["--record-visits", tree] if any(variant.by_visits for variant in found) else []
             run("bvh-trace", tree, "--rays", "diffuse", "--count", options.rays, "--repeat", 1, "--save-rays", rays, *visits, "-o", os.devnull)
             if options.plot and not scenes:
-                plot(name, fetched_addresses(tree, rays, found, work), options.plot)
+                drawn = [variant for variant in found if not variant.by_visits]
+                plot(name, fetched_addresses(tree, rays, drawn, work), options.plot)
             tables = {kind[0]: measure(tree, rays, found, kind, options, work) for kind in KINDS}
             tables["storages"] = measure_storages(tree, rays, options)
             if has_short_records(layouts):

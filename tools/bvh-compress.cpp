@@ -130,7 +130,7 @@ ExitCode compress(CommandLine& line) {
     search.prepare(
         line, {"--codec", "--level", "--geometry", "--position-bits", "--triangle-order", "--vertex-order"});
 
-    const auto givenEncoding = [&](EncodeOptions options = {}) {
+    const auto givenEncoding = [&](EncodeOptions options) {
         twoLevel.addTo(options, form);
         quantized.addTo(options, form);
         mvh.addTo(options, form);
@@ -141,17 +141,15 @@ ExitCode compress(CommandLine& line) {
     if (topology && (form != AabbForm::kName || search.choosesForm()))
         throw Error(ErrorKind::usage,
                     "--codec topology: only --form aabb has boxes that fit again: use --codec zstd");
-    EncodeOptions encoding;
-    if (!form.empty()) encoding = givenEncoding();
+    // What suits BLASes is known when it is known whether they are meshes.
+    if (!form.empty() && form != TwoLevelForm::kName) givenEncoding({});
     BvhxFile file = pass.read();
     // A compact form stays what it is, unless told otherwise.
-    const bool stays = form.empty() && !isPlain(file.bvh);
-    if (form.empty() && !search.choosesForm()) {
+    const bool stays = form.empty() && !search.choosesForm() && !isPlain(file.bvh);
+    if (form.empty() && !search.choosesForm())
         form = stays                   ? formNameOf(file.bvh)
                : isInstanced(file.bvh) ? TwoLevelForm::kName
                                        : QuantizedForm::kName;
-        encoding = givenEncoding(stays ? optionsOf(file.bvh) : EncodeOptions());
-    }
     Report extra = Report::object();
     if (search.isWanted()) {
         pass.stages().begin("search");
@@ -162,12 +160,12 @@ ExitCode compress(CommandLine& line) {
             logError(search.refusal());
             return ExitCode::findings;
         }
-        if (chosen != nullptr) {
-            search.assignTo(line);
-            encoding = givenEncoding();
-        }
+        if (chosen != nullptr) search.assignTo(line);
         extra["search"] = search.report();
     }
+    EncodeOptions defaults;
+    if (file.scene.isInstanced()) defaults.blasForm = BlasForm::quantized;  // for large trees mvh is slow
+    EncodeOptions encoding = givenEncoding(stays ? optionsOf(file.bvh) : defaults);
     if (form == QuantizedForm::kName && quantized.isShort(isInClusters(file.bvh))) {
         form = QuantizedShortForm::kName;
         encoding.bits = EncodeOptions{}.bits;
@@ -175,7 +173,6 @@ ExitCode compress(CommandLine& line) {
     pass.recordOptions(search.recordedOptions(line));
     pass.stages().begin("compress");
     if (file.scene.isInstanced()) {
-        if (!stays) twoLevel.chooseForInstances(encoding);
         encodeInstances(file, form, encoding, twoLevel.cuts());
     } else if (formNameOf(file.bvh) != form || optionsOf(file.bvh) != encoding) {
         if (form == QuantizedShortForm::kName && !isInClusters(file.bvh))

@@ -423,25 +423,25 @@ def ssh_node(index, plane, word, box, slots, base, inherited):
     return (*box, 2 * rest + base, 0)
 
 
-def mvh_node(box, root, own, run, codes, frame, used, below, base):
+def mvh_node(box, root, own, run, size, codes, frame, used, below, base):
     """The node with a box over a run of entries, its insets in `frame` being `own`, in the tree whose root has the box `root`. What lies below is
     put into `below`."""
     first, count = run
-    if count <= 4:
+    if count <= size:
         return (*box, first, count)
-    leaves = -(-count // 4)
-    left = 4 * -(-leaves // 2)
-    at, pair = (first + left) // 4, len(below)
+    leaves = -(-count // size)
+    left = size * -(-leaves // 2)
+    at, pair = (first + left) // size, len(below)
     used.add(at)
     below += [None, None]
     for child, (code, entries) in enumerate(((codes[at] & 15, (first, left)), (codes[at] >> 4, (first + left, count - left)))):
         inner = list(own)
         if code:
             axis, kind = divmod(code - 1, 5)
-            size = ((frame[axis + 3] - frame[axis]) - own[axis]) - own[axis + 3]
-            inner[axis] += (7 / 16, 1 / 4, 0, 0, 1 / 4)[kind] * size
-            inner[axis + 3] += (0, 0, 7 / 16, 1 / 4, 1 / 4)[kind] * size
-        below[pair + child] = mvh_node(box_within(root, frame, inner), root, inner, entries, codes, frame, used, below, base)
+            extent = ((frame[axis + 3] - frame[axis]) - own[axis]) - own[axis + 3]
+            inner[axis] += (7 / 16, 1 / 4, 0, 0, 1 / 4)[kind] * extent
+            inner[axis + 3] += (0, 0, 7 / 16, 1 / 4, 1 / 4)[kind] * extent
+        below[pair + child] = mvh_node(box_within(root, frame, inner), root, inner, entries, size, codes, frame, used, below, base)
     return (*box, pair + base, 0)
 
 
@@ -457,17 +457,18 @@ def read_levels(chunks, slots, references, scene):
     """The top level's nodes, the roots of BLASes as nodes (those of its leaves, or, with instances, of the meshes), the nodes below
     them, PRIM, and ENTR."""
     raw = chunks.expect("FORM", 64)
-    tlas_form, blas_form, blas_size, reserved, tlas_slots, blases, *root = struct.unpack_from("<4s4s2I2Q6f", raw)
+    tlas_form, blas_form, blas_size, leaf_size, tlas_slots, blases, *root = struct.unpack_from("<4s4s2I2Q6f", raw)
     quantized, runs = tlas_form == b"quan", blas_form == b"mvh "
     has_bits = b"quan" in (tlas_form, blas_form)
     bits, = struct.unpack_from("<I", raw, 56)
-    reject_if(reserved != 0 or any(raw[60:]) or (not has_bits and bits) or (not quantized and any(raw[32:56])), 2006, "FORM: reserved")
+    reject_if((leaf_size != 0 and not runs) or any(raw[60:]) or (not has_bits and bits) or (not quantized and any(raw[32:56])), 2006, "FORM: reserved")
     reject_if(not (2 <= tlas_slots <= slots and tlas_slots % 2 == 0 and blases == tlas_slots // 2
                    and ("placed" in scene or blases <= references) and 1 <= blas_size <= 65535), 2011, "FORM: counts")
     reject_if(tlas_form not in (b"aabb", b"quan") or blas_form not in (b"aabb", b"ssh ", b"mvh ", b"quan"), 2010, "form of a level")
     reject_if(blas_form == b"ssh " and references > 2**25, 2011, "references")
     reject_if((has_bits or runs) and references > 2**29, 2011, "references")
     reject_if(has_bits and not 5 <= bits <= 8, 2019, "bits")
+    reject_if(runs and not 1 <= leaf_size <= 16, 2019, "leafSize")
     slots -= tlas_slots
     base, trees, entries = tlas_slots, blases, None
     if "placed" in scene:
@@ -503,10 +504,10 @@ def read_levels(chunks, slots, references, scene):
     else:
         places = [(tuple(box), box, (0.0,) * 6, (k, 1)) for k, box in enumerate(scene["mesh_boxes"])]
     if runs:
-        reject_if(sum(2 * (-(-count // 4) - 1) for *_, (_, count) in places) != slots, 2011, "slots of the BLASes")
-        codes, used, whole, below = chunks.expect("BLAS", -(-references // 4)), set(), [], []
+        reject_if(sum(2 * (-(-count // leaf_size) - 1) for *_, (_, count) in places) != slots, 2011, "slots of the BLASes")
+        codes, used, whole, below = chunks.expect("BLAS", -(-references // leaf_size)), set(), [], []
         for box, frame, own, run in places:
-            whole.append(mvh_node(box, box, own, run, codes, frame, used, below, base))
+            whole.append(mvh_node(box, box, own, run, leaf_size, codes, frame, used, below, base))
         reject_if(any(code for at, code in enumerate(codes) if at not in used), 2006, "a byte that serves no node")
     elif blas_form == b"quan":
         roots = list(struct.iter_unpack("<2I", chunks.expect("ROOT", 8 * trees)))

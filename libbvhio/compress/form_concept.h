@@ -56,8 +56,9 @@ struct EncodeOptions {
     uint32_t pointerBits = 8;  // 6 to 10
     uint32_t lineSize = 64;    // bytes: a power of two, 8 to 512
 
+    uint32_t leafSize = 4;  // mvh, BLASes in that form, too: triangles in a leaf, 1 to 16
+
     // mvh; 0 = as suits the tree
-    uint32_t leafSize = 4;
     float zeta = 0, zetaOfBoth = 0;
     uint32_t cutAxes = 0;
     MvhBuild mvhBuild = MvhBuild::best;

@@ -63,18 +63,19 @@ Aabb boundsOf(std::span<const Reference> references) {
 
 class Builder {
   public:
-    Builder(const InsetFrame& frame, uint8_t* codes) : frame_(frame), codes_(codes) {}
+    Builder(const MvhRuns& shape, const InsetFrame& frame, uint8_t* codes)
+        : shape_(shape), frame_(frame), codes_(codes) {}
 
     /// Puts the run's references, which the box holds, into the order of its leaves, and writes its codes.
     /// Large parts are built side by side.
-    void build(MvhRun run, const InsetBox& box, std::span<Reference> references) {
+    void build(const MvhRun& run, const InsetBox& box, std::span<Reference> references) {
         const auto byPrimitive = [](const Reference& a, const Reference& b) {
             return a.primitive < b.primitive;
         };
         if (run.isLeaf()) return std::sort(references.begin(), references.end(), byPrimitive);
         // Each axis by centers, low and high sides. Of the split that serves best the order is kept: the one
         // of least count * (area as coded + twice the area as it should be).
-        const size_t half = run.leftCount();
+        const size_t half = shape_.left(run).count;
         double least = std::numeric_limits<double>::infinity();
         uint32_t codes[2] = {};
         std::vector<Reference> best(references.size());
@@ -104,27 +105,27 @@ class Builder {
         std::copy(best.begin(), best.end(), references.begin());
         codes_[run.codes()] = uint8_t(codes[0] | codes[1] << 4);
         const auto buildLeft = [&] {
-            build(run.left(), cutBox(frame_, box, codes[0]), references.first(half));
+            build(shape_.left(run), cutBox(frame_, box, codes[0]), references.first(half));
         };
         TaskGroup others;
         if (half >= kForkSize)
             others.run(buildLeft);
         else
             buildLeft();
-        build(run.right(), cutBox(frame_, box, codes[1]), references.subspan(half));
+        build(shape_.right(run), cutBox(frame_, box, codes[1]), references.subspan(half));
         others.wait();
     }
 
     /// Only writes the codes: the references are in order.
-    void code(MvhRun run, const InsetBox& box, std::span<const Reference> references) {
+    void code(const MvhRun& run, const InsetBox& box, std::span<const Reference> references) {
         if (run.isLeaf()) return;
-        const std::span<const Reference> left = references.first(run.leftCount()),
-                                         right = references.subspan(run.leftCount());
+        const std::span<const Reference> left = references.first(shape_.left(run).count),
+                                         right = references.subspan(shape_.left(run).count);
         const uint32_t ofLeft = bestCode(frame_, box, boundsOf(left)),
                        ofRight = bestCode(frame_, box, boundsOf(right));
         codes_[run.codes()] = uint8_t(ofLeft | ofRight << 4);
-        code(run.left(), cutBox(frame_, box, ofLeft), left);
-        code(run.right(), cutBox(frame_, box, ofRight), right);
+        code(shape_.left(run), cutBox(frame_, box, ofLeft), left);
+        code(shape_.right(run), cutBox(frame_, box, ofRight), right);
     }
 
   private:
@@ -136,6 +137,7 @@ class Builder {
         return key == Key::center ? low + high : key == Key::low ? low : high;
     }
 
+    const MvhRuns& shape_;
     const InsetFrame& frame_;
     uint8_t* codes_;
 };
@@ -143,29 +145,30 @@ class Builder {
 /// Decodes one tree after the other, its nodes below the root pair by pair.
 class Decoder {
   public:
-    Decoder(const RootPlaces& places, std::span<const uint8_t> codes, Buffer<Node>& nodes)
-        : places_(places), codes_(codes), nodes_(nodes) {}
+    Decoder(const MvhRuns& shape, const RootPlaces& places, std::span<const uint8_t> codes,
+            Buffer<Node>& nodes)
+        : shape_(shape), places_(places), codes_(codes), nodes_(nodes) {}
 
     Node root(size_t tree) {
-        const PrimitiveRange run = places_.runs[tree];
-        return node(tree, {run.first, run.count}, places_.insets[tree], places_.bounds[tree]);
+        return node(tree, shape_.root(places_.runs[tree]), places_.insets[tree], places_.bounds[tree]);
     }
 
   private:
-    Node node(size_t tree, MvhRun run, const InsetBox& box, const Aabb& bounds) {
+    Node node(size_t tree, const MvhRun& run, const InsetBox& box, const Aabb& bounds) {
         if (run.isLeaf()) return {bounds, run.first, run.count};
         const size_t pair = next_;
         next_ += 2;
         const uint32_t codes = codes_[run.codes()];
-        const auto child = [&](uint32_t code, MvhRun childRun) {
+        const auto child = [&](uint32_t code, const MvhRun& childRun) {
             const InsetBox childBox = cutBox(places_.frame(tree), box, code);
             return node(tree, childRun, childBox, places_.floats(tree, childBox));
         };
-        nodes_[pair] = child(codes & 15, run.left());
-        nodes_[pair + 1] = child(codes >> 4, run.right());
+        nodes_[pair] = child(codes & 15, shape_.left(run));
+        nodes_[pair + 1] = child(codes >> 4, shape_.right(run));
         return {bounds, uint32_t(pair), 0};
     }
 
+    const MvhRuns& shape_;
     const RootPlaces& places_;
     std::span<const uint8_t> codes_;
     Buffer<Node>& nodes_;
@@ -174,19 +177,24 @@ class Decoder {
 
 }  // namespace
 
-MvhBlases MvhBlases::encode(const RootPlaces& places, std::span<uint32_t> primitives,
+MvhBlases MvhBlases::encode(uint32_t leafSize, const RootPlaces& places, std::span<uint32_t> primitives,
                             std::span<const Aabb> boxes, std::span<const uint32_t> ordered) {
-    Buffer<uint8_t> codes(byteCount(primitives.size()));
+    if (primitives.size() > MvhRuns::kMaxReferences)
+        throw Error(ErrorKind::unsupported, "BLASes in the mvh form hold at most " +
+                                                std::to_string(MvhRuns::kMaxReferences) +
+                                                " references: use another --blas-form");
+    const MvhRuns shape(leafSize);
+    Buffer<uint8_t> codes(shape.byteCount(primitives.size()));
     std::fill_n(codes.data(), codes.size(), uint8_t(0));
     const size_t grain = places.frames.size() == 1 ? 256 : 1;  // trees of meshes may be large
     parallelChunks(places.runs.size(), grain, [&](size_t begin, size_t end) {
         std::vector<Reference> references;
         for (size_t i = begin; i < end; ++i) {
-            const MvhRun run{places.runs[i].first, places.runs[i].count};
+            const MvhRun run = shape.root(places.runs[i]);
             references.resize(run.count);
             for (uint32_t k = 0; k < run.count; ++k)
                 references[k] = {boxes[run.first + k], primitives[run.first + k]};
-            Builder builder(places.frame(i), codes.data());
+            Builder builder(shape, places.frame(i), codes.data());
             if (ordered[run.first] == run.count)
                 builder.code(run, places.insets[i], references);
             else
@@ -194,14 +202,14 @@ MvhBlases MvhBlases::encode(const RootPlaces& places, std::span<uint32_t> primit
             for (uint32_t k = 0; k < run.count; ++k) primitives[run.first + k] = references[k].primitive;
         }
     });
-    return MvhBlases(std::move(codes).share());
+    return {leafSize, std::move(codes).share()};
 }
 
 Forest MvhBlases::decode(const RootPlaces& places) const {
     size_t slots = 0;
-    for (const PrimitiveRange& run : places.runs) slots += MvhRun{run.first, run.count}.slotsBelow();
+    for (const PrimitiveRange& run : places.runs) slots += shape_.root(run).slotsBelow();
     Buffer<Node> roots(places.runs.size()), nodes(slots);
-    Decoder decoder(places, codes_, nodes);
+    Decoder decoder(shape_, places, codes_, nodes);
     for (size_t i = 0; i < roots.size(); ++i) roots[i] = decoder.root(i);
     return {std::move(roots).share(), std::move(nodes).share()};
 }

@@ -1,4 +1,4 @@
-// BLASes in the mvh form: trees without pointers, planes or counts; a byte for every four triangles.
+// BLASes in the mvh form: trees without pointers, planes or counts; a byte for every leaf of four triangles.
 //
 // After P. Bauszat, M. Eisemann, M. Magnor, "The Minimal Bounding Volume Hierarchy", VMV 2010: the shape of a
 // tree follows from the number of its primitives, and a child's box from its parent's by a short code that
@@ -12,7 +12,7 @@
 // - A tree's nodes are split by halves of its leaves, so that all of a subtree's primitives are one run; the
 // last
 //   leaf is short, and no triangle is stored twice.
-// - All trees share one array of bytes without a table: see MvhRun.
+// - All trees share one array of bytes without a table: see MvhRuns.
 #pragma once
 
 #include "compress/ray_frame.h"
@@ -22,26 +22,59 @@
 
 namespace bvhio {
 
-/// A node: the run of primitives below it.
+/// A node: the run of primitives below it, and the leaves that these are in.
+struct MvhRun {
+    uint32_t first, count;
+    uint32_t slot;  // first / leafSize, rounded down
+    uint32_t leaves;
+
+    BVHIO_INLINE bool isLeaf() const { return leaves <= 1; }
+    /// Of an inner node: the leaves below its left child, and its children's byte.
+    BVHIO_INLINE uint32_t leftLeaves() const { return (leaves + 1) / 2; }
+    BVHIO_INLINE uint32_t codes() const { return slot + leftLeaves(); }
+    /// How many nodes there are below this one.
+    size_t slotsBelow() const { return 2 * (size_t(leaves) - 1); }
+};
+
+/// The shape of trees whose leaves have a given number of primitives; the last one, what is left.
 ///
 /// Inner nodes are split behind the first half of their leaves, the larger half, at a primitive `middle`. The
-/// codes of the two children are byte middle / kLeafSize of the array, the left child's in the lower bits.
-/// Bytes are never shared: splits within a tree are kLeafSize or more apart, and the first split of a tree
+/// codes of the two children are byte middle / leafSize of the array, the left child's in the lower bits.
+/// Bytes are never shared: splits within a tree are leafSize or more apart, and the first split of a tree
 /// lies at least that far behind its first primitive, which is behind every split of the trees before.
-struct MvhRun {
-    static constexpr uint32_t kLeafSize = 4;
+class MvhRuns {
+  public:
+    static constexpr uint32_t kMaxLeafSize = 16;
+    static constexpr uint32_t kMaxReferences = 1u << 29;
 
-    uint32_t first, count;
+    explicit MvhRuns(uint32_t leafSize)
+        : leafSize_(leafSize), reciprocal_(((uint64_t(1) << kShift) + leafSize - 1) / leafSize) {}
 
-    BVHIO_INLINE bool isLeaf() const { return count <= kLeafSize; }
-    BVHIO_INLINE uint32_t leafCount() const { return (count + kLeafSize - 1) / kLeafSize; }
-    BVHIO_INLINE uint32_t leftCount() const { return (leafCount() + 1) / 2 * kLeafSize; }
-    BVHIO_INLINE MvhRun left() const { return {first, leftCount()}; }
-    BVHIO_INLINE MvhRun right() const { return {first + leftCount(), count - leftCount()}; }
-    /// How many nodes there are below this one.
-    size_t slotsBelow() const { return 2 * (size_t(leafCount()) - 1); }
-    /// Of an inner node.
-    BVHIO_INLINE uint32_t codes() const { return (first + leftCount()) / kLeafSize; }
+    uint32_t leafSize() const { return leafSize_; }
+    BVHIO_INLINE MvhRun root(PrimitiveRange run) const {
+        return {run.first, run.count, inLeaves(run.first), inLeaves(run.count + leafSize_ - 1)};
+    }
+    /// The children of an inner node: nothing is divided on the way down.
+    BVHIO_INLINE MvhRun left(const MvhRun& run) const {
+        return {run.first, run.leftLeaves() * leafSize_, run.slot, run.leftLeaves()};
+    }
+    BVHIO_INLINE MvhRun right(const MvhRun& run) const {
+        const uint32_t left = run.leftLeaves();
+        return {run.first + left * leafSize_, run.count - left * leafSize_, run.slot + left,
+                run.leaves - left};
+    }
+    /// A byte for every leaf that so many primitives could fill.
+    size_t byteCount(size_t primitives) const { return (primitives + leafSize_ - 1) / leafSize_; }
+
+  private:
+    static constexpr uint32_t kShift = 34;
+
+    /// n / leafSize, rounded down, for n below 2^30: by the reciprocal it is too large by less than n / 2^34,
+    /// which is below 1 / 16 and so never reaches the next whole number.
+    BVHIO_INLINE uint32_t inLeaves(uint32_t n) const { return uint32_t(n * reciprocal_ >> kShift); }
+
+    uint32_t leafSize_;
+    uint64_t reciprocal_;  // 2^34 / leafSize, rounded up
 };
 
 /// What each code takes off the box, as parts of its size.
@@ -92,19 +125,17 @@ class MvhBlases {
         MvhRun run;
     };
 
-    /// A byte for every four primitives.
-    explicit MvhBlases(SharedArray<uint8_t> codes) : codes_(std::move(codes)) {}
-    static size_t byteCount(size_t primitives) {
-        return (primitives + MvhRun::kLeafSize - 1) / MvhRun::kLeafSize;
-    }
+    MvhBlases(uint32_t leafSize, SharedArray<uint8_t> codes) : shape_(leafSize), codes_(std::move(codes)) {}
 
-    /// Of the trees over runs of `primitives` at `places`; puts these into the order of their trees. `boxes`
-    /// has for each entry of `primitives` the box that must hold it, `ordered` where a run starts that is in
-    /// such an order already its length, else 0. Parallel.
-    static MvhBlases encode(const RootPlaces& places, std::span<uint32_t> primitives,
+    /// Of the trees with leaves of this size over runs of `primitives` at `places`; puts these into the order
+    /// of their trees. `boxes` has for each entry of `primitives` the box that must hold it, `ordered` where
+    /// a run starts that is in such an order already its length, else 0. Throws Error{unsupported} above 2^29
+    /// references. Parallel.
+    static MvhBlases encode(uint32_t leafSize, const RootPlaces& places, std::span<uint32_t> primitives,
                             std::span<const Aabb> boxes, std::span<const uint32_t> ordered);
     Forest decode(const RootPlaces& places) const;
 
+    const MvhRuns& shape() const { return shape_; }
     const SharedArray<uint8_t>& codes() const { return codes_; }
     size_t nodeBytes() const { return codes_.size(); }
 
@@ -113,7 +144,7 @@ class MvhBlases {
     template <class Entry, class Metrics>
     BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, const RayFrame& ray,
                                       Metrics&) const {
-        return {{entry.place(ray), {leaf.first, leaf.count}}, entry.enter};
+        return {{entry.place(ray), shape_.root(leaf)}, entry.enter};
     }
 
     /// Per pair: 3 differences for the size of the box, 6 products and 6 sums for the planes of each child, 3
@@ -121,7 +152,7 @@ class MvhBlases {
     template <class Metrics>
     BVHIO_INLINE int step(const Entered<Cursor>& from, const RayFrame& ray, float tLimit,
                           Entered<Cursor>* children, Metrics& metrics) const {
-        const MvhRun run = from.cursor.run;
+        const MvhRun& run = from.cursor.run;
         const uint32_t at = run.codes();
         metrics.recordFetched(at, 1);
         metrics.boxesTested(1, BoxTestCost{17, 12});
@@ -132,7 +163,7 @@ class MvhBlases {
         const PlacedBox left = cut(box, size, kMvhMoves[codes & 15]),
                         right = cut(box, size, kMvhMoves[codes >> 4]);
         const EnteredOfTwo found = ray.clip(left, right, tLimit);
-        const auto enter = [&](const PlacedBox& childBox, MvhRun childRun, float where,
+        const auto enter = [&](const PlacedBox& childBox, const MvhRun& childRun, float where,
                                Entered<Cursor>& child) {
             child = {{childBox, childRun}, where};
         };
@@ -140,15 +171,15 @@ class MvhBlases {
             case 0:
                 return 0;
             case 1:
-                enter(left, run.left(), found.enter[0], children[0]);
+                enter(left, shape_.left(run), found.enter[0], children[0]);
                 return 1;
             case 2:
-                enter(right, run.right(), found.enter[1], children[0]);
+                enter(right, shape_.right(run), found.enter[1], children[0]);
                 return 1;
             default:
                 const bool rightFirst = found.enter[1] < found.enter[0];
-                enter(left, run.left(), found.enter[0], children[rightFirst]);
-                enter(right, run.right(), found.enter[1], children[!rightFirst]);
+                enter(left, shape_.left(run), found.enter[0], children[rightFirst]);
+                enter(right, shape_.right(run), found.enter[1], children[!rightFirst]);
                 return 2;
         }
     }
@@ -163,6 +194,7 @@ class MvhBlases {
         return {box.min + min * size, box.max - max * size};
     }
 
+    MvhRuns shape_;
     SharedArray<uint8_t> codes_;
 };
 static_assert(SteppableForm<MvhBlases>);

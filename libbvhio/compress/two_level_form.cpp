@@ -39,17 +39,18 @@ struct Runs {
 };
 
 /// How many primitives are below a node that has the shape of an MVH; 0 if it has another.
-uint32_t countOfMvh(const Forest& forest, const Node& node) {
-    if (node.isLeaf()) return MvhRun{0, node.primitiveCount}.isLeaf() ? node.primitiveCount : 0;
-    const uint32_t left = countOfMvh(forest, forest.nodes[node.left()]);
-    const uint32_t right = left == 0 ? 0 : countOfMvh(forest, forest.nodes[node.right()]);
-    const MvhRun run{0, left + right};
-    return right != 0 && !run.isLeaf() && run.leftCount() == left ? run.count : 0;
+uint32_t countOfMvh(const MvhRuns& shape, const Forest& forest, const Node& node) {
+    if (node.isLeaf()) return shape.root({0, node.primitiveCount}).isLeaf() ? node.primitiveCount : 0;
+    const uint32_t left = countOfMvh(shape, forest, forest.nodes[node.left()]);
+    const uint32_t right = left == 0 ? 0 : countOfMvh(shape, forest, forest.nodes[node.right()]);
+    const MvhRun run = shape.root({0, left + right});
+    return right != 0 && !run.isLeaf() && shape.left(run).count == left ? run.count : 0;
 }
 
 /// Gathers each tree's primitives into one run. A tree that has the shape of an MVH, as one that was decoded,
 /// keeps its order.
-Runs gatherRuns(const Scene& scene, const Forest& forest, std::span<const uint32_t> primitives) {
+Runs gatherRuns(const Scene& scene, const Forest& forest, std::span<const uint32_t> primitives,
+                const MvhRuns& shape) {
     Runs runs;
     runs.primitives.reserve(primitives.size());
     runs.boxes.reserve(primitives.size());
@@ -79,7 +80,7 @@ Runs gatherRuns(const Scene& scene, const Forest& forest, std::span<const uint32
     }
     runs.ordered.resize(runs.primitives.size());
     for (size_t i = 0; i < runs.ranges.size(); ++i)
-        runs.ordered[runs.ranges[i].first] = countOfMvh(forest, forest.roots[i]);
+        runs.ordered[runs.ranges[i].first] = countOfMvh(shape, forest, forest.roots[i]);
     return runs;
 }
 
@@ -156,7 +157,7 @@ TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Enco
             using Bottom = std::decay_t<decltype(*type)>;
             Runs runs;
             if constexpr (Bottom::kAreRuns) {
-                runs = gatherRuns(scene, levels.bottom, bvh.primitives);
+                runs = gatherRuns(scene, levels.bottom, bvh.primitives, MvhRuns(options.leafSize));
                 levels.top = withRuns(levels.top, runs);
             } else {
                 // A top level of one leaf owns the one BLAS.
@@ -167,7 +168,8 @@ TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Enco
             });
             const RootPlaces places = decodeTlas(tlas).places(Bottom::kAreRuns);
             if constexpr (Bottom::kAreRuns) {
-                Bottom blases = Bottom::encode(places, runs.primitives, runs.boxes, runs.ordered);
+                Bottom blases =
+                    Bottom::encode(options.leafSize, places, runs.primitives, runs.boxes, runs.ordered);
                 return {std::move(tlas), std::move(blases), std::move(runs.primitives), options.blasSize};
             } else {
                 Bottom blases = Bottom::encode(levels.bottom, places, bvh.primitives.size(), options);
@@ -206,8 +208,9 @@ TwoLevelForm TwoLevelForm::encodeInstances(const Scene& scene, const InstancedBv
         };
         const RootPlaces places = placed.places();
         if constexpr (Bottom::kAreRuns) {
-            Runs runs = gatherRuns(scene, meshes.forest, meshes.primitives);
-            Bottom blases = Bottom::encode(places, runs.primitives, runs.boxes, runs.ordered);
+            Runs runs = gatherRuns(scene, meshes.forest, meshes.primitives, MvhRuns(options.leafSize));
+            Bottom blases =
+                Bottom::encode(options.leafSize, places, runs.primitives, runs.boxes, runs.ordered);
             return formOver(std::move(blases), std::move(runs.primitives));
         } else {
             return formOver(Bottom::encode(meshes.forest, places, meshes.primitives.size(), options),
@@ -266,6 +269,7 @@ EncodeOptions TwoLevelForm::options() const {
     EncodeOptions options = std::visit([](const auto& level) { return level.form().options(); }, tlas_);
     if (const auto* quantized = std::get_if<QuantizedBlases>(&blases_))
         options.bits = quantized->form().bits();
+    if (const auto* mvh = std::get_if<MvhBlases>(&blases_)) options.leafSize = mvh->shape().leafSize();
     options.tlasForm = TlasForm(tlas_.index());
     options.blasForm = BlasForm(blases_.index());
     options.blasSize = blasSize_;

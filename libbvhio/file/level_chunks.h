@@ -26,6 +26,7 @@ struct LevelCounts {
     bool areRuns = false;               // leaves of the top level own primitives, not the index of a BLAS
     Aabb bounds{{0, 0, 0}, {0, 0, 0}};  // of a quantized top level's root
     uint32_t bits = 0;                  // of a quantized level
+    uint32_t leafSize = 0;              // of mvh BLASes
 };
 
 /// Throws unless a leaf of the top level names a BLAS, or primitives.
@@ -135,9 +136,10 @@ struct LevelChunks<MvhBlases> {
         writeArrayChunk(writer, kBlasType, blases.codes());
     }
     static MvhBlases read(ChunkSequence& chunks, const LevelCounts& counts) {
-        if (counts.references > QuantizedRecord::kMaxReferences)
+        if (counts.references > MvhRuns::kMaxReferences)
             chunks.fail(FindingId::treeCounts, "mvh BLASes have at most 2^29 references");
-        return MvhBlases(chunks.expectArray<uint8_t>(kBlasType, MvhBlases::byteCount(counts.references)));
+        const size_t bytes = MvhRuns(counts.leafSize).byteCount(counts.references);
+        return {counts.leafSize, chunks.expectArray<uint8_t>(kBlasType, bytes)};
     }
 };
 

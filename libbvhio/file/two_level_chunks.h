@@ -29,7 +29,7 @@ struct FormChunks<TwoLevelForm> {
                 bytes.u32(TlasChunks::kCode);
                 bytes.u32(BlasChunks::kCode);
                 bytes.u32(form.options().blasSize);
-                bytes.zeros(4);
+                bytes.u32(isMvh(BlasChunks::kCode) ? form.options().leafSize : 0);
                 LevelCounts counts;
                 TlasChunks::describe(tlas, counts);
                 bytes.u64(TlasChunks::slots(tlas));
@@ -52,13 +52,14 @@ struct FormChunks<TwoLevelForm> {
         const Bytes payload = chunks.expect(kFormType, kFormSize);
         ByteReader reader(payload, "chunk FORM");
         const uint32_t tlasCode = reader.u32(), blasCode = reader.u32(), blasSize = reader.u32();
-        bool zero = reader.skipZeros(4);
+        const bool isOverMvh = isMvh(blasCode);
         LevelCounts counts;
+        counts.leafSize = reader.u32();
+        bool zero = isOverMvh || counts.leafSize == 0;
         counts.references = parameters.references;
         counts.tlasSlots = reader.u64();
         counts.blases = reader.u64();
-        const bool areRuns = blasCode == LevelChunks<MvhBlases>::kCode;
-        counts.areRuns = areRuns && !scene.isInstanced();
+        counts.areRuns = isOverMvh && !scene.isInstanced();
         if (isQuantized(tlasCode)) {
             for (Vec3* corner : {&counts.bounds.min, &counts.bounds.max})
                 for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.f32();
@@ -81,6 +82,9 @@ struct FormChunks<TwoLevelForm> {
                                                    std::to_string(parameters.nodeSlots) + " slots");
 
         if (hasBits) FormChunks<QuantizedForm>::checkBits(chunks, counts.bits);
+        if (isOverMvh && (counts.leafSize < 1 || counts.leafSize > MvhRuns::kMaxLeafSize))
+            chunks.fail(FindingId::formParameter, "leaves of " + std::to_string(counts.leafSize) +
+                                                      " triangles in mvh BLASes: 1 to 16 are known");
 
         SharedArray<uint32_t> entries;
         LevelCounts bottom = counts;
@@ -89,7 +93,7 @@ struct FormChunks<TwoLevelForm> {
                 chunks.fail(FindingId::treeOfInstances,
                             std::to_string(counts.blases) + " leaves of the top level for " +
                                 std::to_string(scene.instances.size()) + " instances");
-            if (areRuns && parameters.references != scene.triangles.size())
+            if (isOverMvh && parameters.references != scene.triangles.size())
                 chunks.fail(FindingId::treeCounts, "mvh BLASes of meshes have each triangle once");
             entries = readEntries(chunks, scene);
             counts.references = entries.size();
@@ -97,19 +101,20 @@ struct FormChunks<TwoLevelForm> {
         }
         auto [tlas, tlasPlace] = readLevel<TwoLevelForm::Tlas>(chunks, tlasCode, counts);
         auto [blases, blasPlace] = readLevel<TwoLevelForm::Blases>(chunks, blasCode, bottom);
-        if (areRuns && (chunks.sound() || !scene.isInstanced())) {
-            std::vector<MvhRun> runs;
+        if (isOverMvh && (chunks.sound() || !scene.isInstanced())) {
+            std::vector<PrimitiveRange> runs;
             if (scene.isInstanced())
                 for (const SceneMesh& mesh : scene.meshes)
                     runs.push_back({mesh.firstTriangle, mesh.triangleCount});
             else
                 runs = runsOf(tlas);
-            checkRuns(chunks, std::move(runs), std::get<MvhBlases>(blases), counts.blasSlots);
+            checkRuns(chunks, runs, std::get<MvhBlases>(blases), counts.blasSlots);
         }
         // What places BLASes is made of geometry: only that which is sound.
         PlacedBlases placed;
         auto primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
-        if (scene.isInstanced() && chunks.sound()) placed = PlacedBlases(scene, std::move(entries), areRuns);
+        if (scene.isInstanced() && chunks.sound())
+            placed = PlacedBlases(scene, std::move(entries), isOverMvh);
         TwoLevelForm form(std::move(tlas), std::move(blases), std::move(primitives), blasSize,
                           std::move(placed));
         if (scene.isInstanced()) {
@@ -124,33 +129,39 @@ struct FormChunks<TwoLevelForm> {
     }
 
   private:
+    static constexpr bool isMvh(uint32_t code) { return code == LevelChunks<MvhBlases>::kCode; }
     static constexpr bool isQuantized(uint32_t code) { return code == FormChunks<QuantizedForm>::kCode; }
 
     /// What the leaves of a top level own.
-    static std::vector<MvhRun> runsOf(const TwoLevelForm::Tlas& tlas) {
+    static std::vector<PrimitiveRange> runsOf(const TwoLevelForm::Tlas& tlas) {
         const Bvh top = std::visit([](const auto& level) { return level.form().decode(); }, tlas);
-        std::vector<MvhRun> runs;
+        std::vector<PrimitiveRange> runs;
         for (const Node& node : top.nodes)
             if (node.isLeaf()) runs.push_back({node.first, node.primitiveCount});
         return runs;
     }
 
     /// Whether the trees over the runs have as many slots as TREE says, and bytes that serve none are zero.
-    static void checkRuns(const ChunkSequence& chunks, std::vector<MvhRun> runs, const MvhBlases& blases,
-                          uint64_t blasSlots) {
+    static void checkRuns(const ChunkSequence& chunks, std::span<const PrimitiveRange> runs,
+                          const MvhBlases& blases, uint64_t blasSlots) {
+        const MvhRuns& shape = blases.shape();
         uint64_t slots = 0;
-        for (const MvhRun& run : runs) slots += run.slotsBelow();
+        std::vector<MvhRun> waiting;
+        for (const PrimitiveRange& run : runs) {
+            waiting.push_back(shape.root(run));
+            slots += waiting.back().slotsBelow();
+        }
         if (slots != blasSlots)
             chunks.fail(FindingId::treeCounts, "the BLASes have " + std::to_string(slots) +
                                                    " slots, TREE leaves " + std::to_string(blasSlots));
         std::vector<bool> serves(blases.codes().size());
-        while (!runs.empty()) {
-            const MvhRun run = runs.back();
-            runs.pop_back();
+        while (!waiting.empty()) {
+            const MvhRun run = waiting.back();
+            waiting.pop_back();
             if (run.isLeaf()) continue;
             serves[run.codes()] = true;
-            runs.push_back(run.left());
-            runs.push_back(run.right());
+            waiting.push_back(shape.left(run));
+            waiting.push_back(shape.right(run));
         }
         for (size_t i = 0; i < serves.size(); ++i)
             if (!serves[i] && blases.codes()[i] != 0)

@@ -207,6 +207,7 @@ inline std::vector<GoldenFile> goldenFiles() {
         {"grid_quantized_over_ssh", inTwoLevels(grid(), TlasForm::quantized, BlasForm::ssh, 9), {}},
         {"grid_aabb_over_mvh", inTwoLevels(grid(), TlasForm::aabb, BlasForm::mvh, 40), {}},
         {"grid_aabb_over_aabb", inTwoLevels(grid(), TlasForm::aabb, BlasForm::aabb, 9), {}},
+        {"grid_over_mvh_leaf_3", inForm(grid(), "two-level", {.leafSize = 3, .blasSize = 20}), {}},
         {"two_triangles_over_quantized",
          inTwoLevels(twoTriangles(), TlasForm::aabb, BlasForm::quantized, 2),
          {}},

@@ -321,7 +321,7 @@ def two_level_case(clause, name, chunk, offset, fmt, *values, base=TWO):
     simple(clause, "two_level_" + name, lambda f: f.patch(chunk, offset, fmt, *values), base)
 
 
-two_level_case(2006, "reserved_12", "FORM", 12, "I", 1)
+two_level_case(2006, "leaf_size_of_ssh", "FORM", 12, "I", 4)
 two_level_case(2006, "reserved_32", "FORM", 32, "B", 1)
 two_level_case(2010, "tlas_form", "FORM", 0, "4s", b"ssh ")
 two_level_case(2010, "blas_form", "FORM", 4, "4s", b"best")
@@ -612,6 +612,8 @@ simple(2011, "two_level_mvh_slots", lambda f: f.patch("TREE", 8, "Q", struct.unp
 simple(2011, "two_level_mvh_references", lambda f: f.patch("TREE", 16, "Q", 2**29 + 1), OVER_MVH)
 simple(2011, "two_level_mvh_large_root", lambda f: f.patch("TREE", 8, "2Q", 2 + 2 * 32, 129), ONE_MVH)
 simple(2005, "two_level_mvh_bytes", lambda f: f.replace("BLAS", f["BLAS"].raw + b"\0"), OVER_MVH)
+two_level_case(2019, "leaf_size_0", "FORM", 12, "I", 0, base=OVER_MVH)
+two_level_case(2019, "leaf_size_17", "FORM", 12, "I", 17, base=OVER_MVH)
 two_level_case(2019, "bits_4", "FORM", 56, "I", 4, base=OVER_MVH)
 two_level_case(2019, "bits_9", "FORM", 56, "I", 9, base=OVER_MVH)
 two_level_case(3002, "own_record", "TLAS", 8, "I", 0, base=OVER_MVH)

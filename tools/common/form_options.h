@@ -84,7 +84,6 @@ class TwoLevelOptions {
             return;
         }
         take(tlasForm_, options.tlasForm);
-        wasBlasFormGiven_ = !blasForm_.empty();
         take(blasForm_, options.blasForm);
         wasSizeGiven_ = blasSize_ != 0;
         if (blasSize_ == 0) blasSize_ = options.blasSize;
@@ -93,13 +92,6 @@ class TwoLevelOptions {
 
     /// Whether a size to cut by was given.
     bool cuts() const { return wasSizeGiven_; }
-    /// Chooses BLASes for the meshes of instances, where none were asked for: they are large, and mvh is slow
-    /// then.
-    void chooseForInstances(EncodeOptions& options) {
-        if (wasBlasFormGiven_) return;
-        options.blasForm = BlasForm::ssh;
-        blasForm_ = levelForms<BlasForm>()[size_t(BlasForm::ssh)];
-    }
 
   private:
     template <class LevelForm>
@@ -118,25 +110,31 @@ class TwoLevelOptions {
 
     std::string tlasForm_, blasForm_;
     uint32_t blasSize_ = 0;
-    bool wasSizeGiven_ = false, wasBlasFormGiven_ = false;
+    bool wasSizeGiven_ = false;
 };
 
-/// Options of the mvh form: empty or 0 where not given.
+/// Options of the mvh form, and of BLASes in it: empty or 0 where not given.
 class MvhOptions {
   public:
     explicit MvhOptions(CommandLine& line) {
         line.choice("--mvh-build", build_, kBuilds, "mvh: how triangles are divided");
-        line.number("--leaf-size", leafSize_, 1, MvhParameters::kMaxLeafSize, "mvh: triangles in a leaf");
+        line.number("--leaf-size", leafSize_, 1, MvhParameters::kMaxLeafSize,
+                    "mvh, BLASes in it, too: triangles in a leaf");
         line.text("--zeta", "auto|ONE[,BOTH]", zeta_,
                   "mvh: the part of a box that a cut of one plane takes off, and of both");
     }
 
     /// Adds what was given to the options for `form`, and fills in the rest. Throws Error{usage} where
-    /// another form has no use for it.
+    /// another form has no use for it. For after TwoLevelOptions.
     void addTo(EncodeOptions& options, std::string_view form) {
         if (form != MvhForm::kName) {
+            const bool isLevel = form == TwoLevelForm::kName && options.blasForm == BlasForm::mvh;
+            if (isLevel) {
+                if (leafSize_ == 0) leafSize_ = options.leafSize;
+                options.leafSize = leafSize_;
+            }
             refuseForOtherForm({{"--mvh-build", !build_.empty()},
-                                {"--leaf-size", leafSize_ != 0},
+                                {"--leaf-size", leafSize_ != 0 && !isLevel},
                                 {"--zeta", !zeta_.empty()}},
                                MvhForm::kName, form);
             return;

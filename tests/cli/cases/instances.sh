@@ -39,7 +39,8 @@ cat "$scene" | bvh-build --two-level | cmp - levels.bvhx
 cube | bvh-build --two-level | bvh-trace --compare <(cube | bvh-build) --rays random --count 1000 --format json | json compare.differing
 # What needs one tree says so.
 code bvh-compress levels.bvhx --form aabb -o no.bvhx
-code bvh-compress levels.bvhx --form two-level --tlas-form aabb --bits 6 -o no.bvhx
+code bvh-compress levels.bvhx --form two-level --tlas-form aabb --blas-form mvh --bits 6 -o no.bvhx
+code bvh-compress levels.bvhx --leaf-size 8 -o no.bvhx
 code bvh-compress levels.bvhx --form two-level --blas-size 4 -o no.bvhx
 code bvh-compress levels.bvhx --form two-level --geometry draco -o no.bvhx
 code bvh-compress levels.bvhx --max-slowdown 2 -o no.bvhx

@@ -44,27 +44,30 @@ TEST(TwoLevels, cutOffTheLargestSubtreesThatAreSmallEnough) {
 }
 
 // Trees share one array of codes without a table: no two nodes may have the same byte.
-TEST(MvhRun, givesEachInnerNodeAByteOfItsOwn) {
-    for (const uint32_t start : {0u, 1u, 2u, 3u})
-        for (uint32_t count = 1; count < 40; ++count) {
+TEST(MvhRuns, giveEachInnerNodeAByteOfItsOwn) {
+    for (const uint32_t leafSize : {1u, 3u, 4u, 7u, 16u})
+        for (uint32_t i = 0; i < 4 * 40; ++i) {
+            const MvhRuns shape(leafSize);
+            const uint32_t start = i % 4, count = i / 4 + 1;
             std::set<uint32_t> bytes;
             size_t inner = 0;
             const uint32_t total = start + 3 * count;
             std::vector<MvhRun> waiting;
-            for (uint32_t tree = 0; tree < 3; ++tree) waiting.push_back({start + tree * count, count});
+            for (uint32_t tree = 0; tree < 3; ++tree)
+                waiting.push_back(shape.root({start + tree * count, count}));
             while (!waiting.empty()) {
                 const MvhRun run = waiting.back();
                 waiting.pop_back();
                 if (run.isLeaf()) continue;
                 ++inner;
                 bytes.insert(run.codes());
-                EXPECT_EQ(run.left().count + run.right().count, run.count);
-                waiting.push_back(run.left());
-                waiting.push_back(run.right());
+                EXPECT_EQ(shape.left(run).count + shape.right(run).count, run.count);
+                waiting.push_back(shape.left(run));
+                waiting.push_back(shape.right(run));
             }
             EXPECT_EQ(bytes.size(), inner) << start << ' ' << count;
             if (!bytes.empty()) {
-                EXPECT_LT(*bytes.rbegin(), MvhBlases::byteCount(total));
+                EXPECT_LT(*bytes.rbegin(), shape.byteCount(total));
             }
         }
 }

@@ -8,7 +8,7 @@ namespace bvhio {
 namespace {
 
 /// Leaves whose boxes are found together: their primitives lie scattered, and a batch is fetched ahead.
-struct LeafBatch {
+struct RefitBatch {
     std::vector<uint32_t> leaves, primitives;
     std::vector<Aabb> boxes;
 
@@ -31,7 +31,7 @@ struct LeafBatch {
 void fitLeaves(std::span<Node> nodes, std::span<const uint32_t> primitives,
                const PrimitiveBounds& primitiveBounds) {
     parallelChunks(nodes.size(), 16384, [&](size_t begin, size_t end) {
-        LeafBatch batch;
+        RefitBatch batch;
         for (size_t i = begin; i < end; ++i) {
             if (!nodes[i].isLeaf()) continue;
             const auto range = primitives.subspan(nodes[i].first, nodes[i].primitiveCount);

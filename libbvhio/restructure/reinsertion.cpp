@@ -26,7 +26,7 @@ namespace {
 constexpr uint32_t kIterations = 4;
 constexpr size_t kPart = 20, kFewest = 1024;  // of the nodes a pass looks at one in kPart, or this many
 constexpr uint32_t kBatches = 4;
-constexpr size_t kGrain = 128;
+constexpr size_t kMovesPerTask = 128;
 // Treelets: after how many passes, their leaves, and the slots that make for a step in each pass.
 constexpr uint32_t kPassesBefore = 2, kTreeletLeaves = 512, kSlotsPerStep = 64, kFewestSteps = 32;
 constexpr uint32_t kCuts = 3;   // ways to cut the tree, each with four times as many treelets
@@ -86,7 +86,7 @@ class Reinsertion {
     /// Finds places for the batch, then moves what still gains.
     uint64_t moveBatch() {
         places_.resize(batch_.size());
-        parallelChunks(batch_.size(), kGrain, [&](size_t begin, size_t end) {
+        parallelChunks(batch_.size(), kMovesPerTask, [&](size_t begin, size_t end) {
             findPlaces(tree_, scale_, {batch_.data() + begin, end - begin}, places_.data() + begin);
         });
         found_.clear();
@@ -109,7 +109,7 @@ class Reinsertion {
     /// for, in turn.
     uint64_t recreateTreelets() {
         const size_t steps = std::max<size_t>(tree_.size() / kSlotsPerStep, kFewestSteps);
-        Treelet top(moves_, 0, kTreeletLeaves);
+        ReinsertionTreelet top(moves_, 0, kTreeletLeaves);
         Random random(pass_);
         uint64_t changes = top.improve(uint32_t(steps / 2), random);
         if (changes > 0) top.write(moves_);
@@ -117,12 +117,12 @@ class Reinsertion {
         while (cut > 0 && (kTreeletLeaves << 2 * cut) * 32 > tree_.size()) --cut;
         const std::vector<uint32_t> all =
             cut == 0 ? top.openLeaves(moves_)
-                     : Treelet(moves_, 0, kTreeletLeaves << 2 * cut).openLeaves(moves_);
+                     : ReinsertionTreelet(moves_, 0, kTreeletLeaves << 2 * cut).openLeaves(moves_);
         std::vector<uint32_t> roots(std::min(all.size(), steps / 2 / kTreeletLeaves));
         for (uint32_t& root : roots) root = all[next_[cut]++ % all.size()];
         std::vector<uint32_t> changesOf(roots.size());
         parallelChunks(roots.size(), 1, [&](size_t i, size_t) {
-            Treelet treelet(moves_, roots[i], kTreeletLeaves);
+            ReinsertionTreelet treelet(moves_, roots[i], kTreeletLeaves);
             Random ownRandom(pass_, roots[i]);
             changesOf[i] = treelet.improve(treelet.leaves(), ownRandom);
             if (changesOf[i] > 0) treelet.write(moves_);

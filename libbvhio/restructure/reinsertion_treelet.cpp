@@ -9,7 +9,7 @@ constexpr uint32_t kMostTaken = 4;  // subtrees that a step takes out
 
 }  // namespace
 
-Treelet::Treelet(const SubtreeMoves& moves, uint32_t root, uint32_t maxLeaves)
+ReinsertionTreelet::ReinsertionTreelet(const SubtreeMoves& moves, uint32_t root, uint32_t maxLeaves)
     : rootBox_(moves.tree()[root].bounds) {
     parts_.reserve(2 * maxLeaves);
     std::vector<std::pair<double, uint32_t>> open;  // a heap: the largest area first, of equals the first
@@ -35,26 +35,26 @@ Treelet::Treelet(const SubtreeMoves& moves, uint32_t root, uint32_t maxLeaves)
     }
 }
 
-uint32_t Treelet::add(const Node& node, uint32_t slot) {
+uint32_t ReinsertionTreelet::add(const Node& node, uint32_t slot) {
     parts_.push_back({node.bounds, slot, halfArea(node.bounds)});
     return uint32_t(parts_.size() - 1);
 }
 
-std::vector<uint32_t> Treelet::openLeaves(const SubtreeMoves& moves) const {
+std::vector<uint32_t> ReinsertionTreelet::openLeaves(const SubtreeMoves& moves) const {
     std::vector<uint32_t> slots;
     for (const Part& part : parts_)
         if (part.isLeaf() && !moves.isLeafInTheEnd(part.slot)) slots.push_back(part.slot);
     return slots;
 }
 
-uint32_t Treelet::improve(uint32_t steps, Random& random) {
+uint32_t ReinsertionTreelet::improve(uint32_t steps, Random& random) {
     uint32_t better = 0;
     for (uint32_t i = 0; i < steps; ++i) better += step(random);
     return better;
 }
 
 /// Large nodes matter more.
-uint32_t Treelet::pick(Random& random) const {
+uint32_t ReinsertionTreelet::pick(Random& random) const {
     uint32_t best = random.below(uint32_t(parts_.size()));
     for (int i = 0; i < 3; ++i) {
         const uint32_t other = random.below(uint32_t(parts_.size()));
@@ -64,7 +64,7 @@ uint32_t Treelet::pick(Random& random) const {
 }
 
 /// Others below the same ancestor, a few levels up, none within another.
-void Treelet::pickMore(uint32_t first, Random& random) {
+void ReinsertionTreelet::pickMore(uint32_t first, Random& random) {
     uint32_t ancestor = first;
     for (uint32_t up = random.below(4); up > 0 && parts_[ancestor].parent != kNone; --up)
         ancestor = parts_[ancestor].parent;
@@ -79,7 +79,7 @@ void Treelet::pickMore(uint32_t first, Random& random) {
     }
 }
 
-bool Treelet::step(Random& random) {
+bool ReinsertionTreelet::step(Random& random) {
     const uint32_t first = pick(random);
     if (parts_[first].parent == kNone) return false;
     pickMore(first, random);
@@ -111,18 +111,18 @@ bool Treelet::step(Random& random) {
     return false;
 }
 
-bool Treelet::isBelow(uint32_t part, uint32_t top) const {
+bool ReinsertionTreelet::isBelow(uint32_t part, uint32_t top) const {
     while (part != top && part != kNone) part = parts_[part].parent;
     return part == top;
 }
 
-uint32_t Treelet::sibling(uint32_t part) const {
+uint32_t ReinsertionTreelet::sibling(uint32_t part) const {
     const Part& parent = parts_[parts_[part].parent];
     return parent.children[parent.children[0] == part ? 1 : 0];
 }
 
 /// The sibling takes the parent's place; returns it.
-uint32_t Treelet::takeOut(uint32_t part) {
+uint32_t ReinsertionTreelet::takeOut(uint32_t part) {
     const uint32_t parent = parts_[part].parent, other = sibling(part), above = parts_[parent].parent;
     areas_ -= parts_[parent].area;
     free_.push_back(parent);
@@ -136,7 +136,7 @@ uint32_t Treelet::takeOut(uint32_t part) {
     return other;
 }
 
-void Treelet::putBeside(uint32_t part, uint32_t beside) {
+void ReinsertionTreelet::putBeside(uint32_t part, uint32_t beside) {
     const uint32_t parent = free_.back(), above = parts_[beside].parent;
     free_.pop_back();
     Part& made = parts_[parent];
@@ -155,7 +155,7 @@ void Treelet::putBeside(uint32_t part, uint32_t beside) {
     }
 }
 
-void Treelet::refit(uint32_t part) {
+void ReinsertionTreelet::refit(uint32_t part) {
     for (; part != kNone; part = parts_[part].parent) {
         Part& node = parts_[part];
         const Aabb box = unite(parts_[node.children[0]].box, parts_[node.children[1]].box);
@@ -168,7 +168,7 @@ void Treelet::refit(uint32_t part) {
 }
 
 /// Beside which node a part costs least; kNone when that is not less than `limit`.
-uint32_t Treelet::bestPlace(uint32_t part, double limit) {
+uint32_t ReinsertionTreelet::bestPlace(uint32_t part, double limit) {
     const Aabb box = parts_[part].box;
     const double area = parts_[part].area;
     uint32_t best = kNone;
@@ -196,7 +196,7 @@ uint32_t Treelet::bestPlace(uint32_t part, double limit) {
     return best;
 }
 
-void Treelet::write(SubtreeMoves& moves) {
+void ReinsertionTreelet::write(SubtreeMoves& moves) {
     if (leaves_ == 1) return;
     std::vector<SubtreeMoves::Content> contents(parts_.size());
     for (size_t i = 0; i < parts_.size(); ++i)

@@ -11,10 +11,10 @@ namespace bvhio {
 /// The nodes from one down to some that count as leaves here. Ruin and recreate (Schrimpf et al. 2000): a few
 /// subtrees near each other are taken out, and put back one by one where each costs least; what does not
 /// lower the sum of the inner nodes' areas is undone. That finds what no single move can reach.
-class Treelet {
+class ReinsertionTreelet {
   public:
     /// Copies the tree below `root`, opening nodes of large area first, up to `maxLeaves` leaves.
-    Treelet(const SubtreeMoves& moves, uint32_t root, uint32_t maxLeaves);
+    ReinsertionTreelet(const SubtreeMoves& moves, uint32_t root, uint32_t maxLeaves);
 
     uint32_t leaves() const { return leaves_; }
     /// The slots of the leaves that have nodes of the tree below.

@@ -10,7 +10,7 @@
 namespace bvhio {
 namespace {
 
-constexpr size_t kGrain = 1 << 14;
+constexpr size_t kNodesPerTask = 1 << 14;
 
 /// Opens one leaf: writes a tree over its references to the pairs from `pair` on.
 class LeafOpening {
@@ -103,7 +103,7 @@ TreeEditor::TreeEditor(const Scene& scene, const Bvh& bvh, const RestructureOpti
     if (links == Links::none) return;
     parentOfPair_ = Buffer<uint32_t>(nodes_.size() / 2);
     parentOfPair_[0] = 0;
-    parallelChunks(nodes_.size(), kGrain, [&](size_t begin, size_t end) {
+    parallelChunks(nodes_.size(), kNodesPerTask, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)
             if (i != 1) adopt(uint32_t(i));
     });
@@ -113,21 +113,21 @@ TreeEditor::TreeEditor(const Scene& scene, const Bvh& bvh, const RestructureOpti
 void TreeEditor::open(const Scene& scene) {
     const size_t given = given_.nodes.size();
     // A leaf of n references needs n - 1 pairs; a chunk's leaves begin where those before it end.
-    std::vector<uint64_t> ends((given + kGrain - 1) / kGrain);
-    parallelChunks(given, kGrain, [&](size_t begin, size_t end) {
+    std::vector<uint64_t> ends((given + kNodesPerTask - 1) / kNodesPerTask);
+    parallelChunks(given, kNodesPerTask, [&](size_t begin, size_t end) {
         uint64_t pairs = 0;
         for (size_t i = begin; i < end; ++i)
             if (given_.nodes[i].isLeaf()) pairs += given_.nodes[i].primitiveCount - 1;
-        ends[begin / kGrain] = pairs;
+        ends[begin / kNodesPerTask] = pairs;
     });
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
     if (given + 2 * ends.back() > 0xFFFFFFFE)
         throw Error(ErrorKind::resources, "too many references to open all leaves: use --no-collapse");
     nodes_ = Buffer<Node>(given + 2 * ends.back());
     std::copy(given_.nodes.begin(), given_.nodes.end(), nodes_.data());
-    parallelChunks(given, kGrain, [&](size_t begin, size_t end) {
+    parallelChunks(given, kNodesPerTask, [&](size_t begin, size_t end) {
         LeafOpening opening(scene, given_, given_.primitives.size() > scene.triangles.size(), nodes_.data());
-        uint64_t pair = given + (begin == 0 ? 0 : 2 * ends[begin / kGrain - 1]);
+        uint64_t pair = given + (begin == 0 ? 0 : 2 * ends[begin / kNodesPerTask - 1]);
         for (size_t i = begin; i < end; ++i) {
             const uint32_t count = given_.nodes[i].primitiveCount;
             if (count < 2) continue;

@@ -17,7 +17,7 @@ constexpr double kMaxSkew = 256;
 /// The most that rays may grow or shrink: their numbers must not leave the floats, nor lose digits as
 /// denormals.
 constexpr double kMaxScale = 0x1p40;
-constexpr uint32_t kNone = 0xFFFFFFFF;
+constexpr uint32_t kNoMesh = 0xFFFFFFFF;
 
 Affine rounded(const Transform& transform) {
     Affine result;
@@ -135,12 +135,12 @@ void leaveOutEmpty(Scene& scene) {
                                               scene.geometries.begin() + ptrdiff_t(end),
                                               [](const Geometry& g) { return g.triangleCount > 0; });
         newNumber[i] = uint32_t(meshes.size());
-        if (!hasTriangles) newNumber[i] = kNone;
+        if (!hasTriangles) newNumber[i] = kNoMesh;
         for (; geometry < end; ++geometry)
             if (hasTriangles) geometries.push_back(std::move(scene.geometries[geometry]));
         if (hasTriangles) meshes.push_back(scene.meshes[i]);
     }
-    std::erase_if(scene.instances, [&](const SceneInstance& i) { return newNumber[i.mesh] == kNone; });
+    std::erase_if(scene.instances, [&](const SceneInstance& i) { return newNumber[i.mesh] == kNoMesh; });
     for (SceneInstance& instance : scene.instances) instance.mesh = newNumber[instance.mesh];
     scene.geometries = std::move(geometries);
     scene.meshes = std::move(meshes);

@@ -7,7 +7,7 @@
 namespace bvhio {
 
 namespace {
-constexpr char kSignature[9] = "BVHHITS1";
+constexpr char kHitSignature[9] = "BVHHITS1";
 }
 
 std::vector<HitRecord> hitRecords(const Scene& scene, std::span<const Hit> hits) {
@@ -24,11 +24,11 @@ std::vector<HitRecord> hitRecords(const Scene& scene, std::span<const Hit> hits)
 }
 
 std::vector<std::byte> encodeHits(std::span<const HitRecord> records) {
-    return encodeRecords(kSignature, records);
+    return encodeRecords(kHitSignature, records);
 }
 
 std::vector<HitRecord> decodeHits(std::span<const std::byte> bytes, const std::string& name) {
-    return decodeRecords<HitRecord>(kSignature, bytes, "hits", name);
+    return decodeRecords<HitRecord>(kHitSignature, bytes, "hits", name);
 }
 
 uint64_t hitHash(std::span<const HitRecord> records) {

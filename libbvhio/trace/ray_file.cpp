@@ -5,15 +5,15 @@
 namespace bvhio {
 
 namespace {
-constexpr char kSignature[9] = "BVHRAYS1";
+constexpr char kRaySignature[9] = "BVHRAYS1";
 }
 
 std::vector<std::byte> encodeRays(std::span<const Ray> rays) {
-    return encodeRecords(kSignature, rays);
+    return encodeRecords(kRaySignature, rays);
 }
 
 std::vector<Ray> decodeRays(std::span<const std::byte> bytes, const std::string& name) {
-    return decodeRecords<Ray>(kSignature, bytes, "rays", name);
+    return decodeRecords<Ray>(kRaySignature, bytes, "rays", name);
 }
 
 }  // namespace bvhio

@@ -12,7 +12,7 @@ namespace {
 constexpr uint32_t kSide = 2;            // a pixel averages kSide x kSide points
 constexpr uint32_t kAmbientRays = 4;     // from each of them
 constexpr size_t kBandPoints = 1 << 18;  // traced at a time
-constexpr size_t kGrain = 4096;
+constexpr size_t kPixelsPerTask = 4096;
 
 /// A quiet colour for each geometry, by stepping round the hues in the golden ratio; clay where there is only
 /// one.
@@ -67,7 +67,7 @@ std::array<Vec3d, kAmbientRays> ambientDirections(Vec3d normal, uint32_t share, 
 std::vector<double> openness(const Scene& scene, const Band& band, float reach,
                              const ClosestHits& closestHits) {
     std::vector<Ray> ambient(band.seen.size() * kAmbientRays);
-    parallelChunks(band.seen.size(), kGrain, [&](size_t begin, size_t end) {
+    parallelChunks(band.seen.size(), kPixelsPerTask, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const size_t at = band.seen[i], x = at % band.width, y = band.top + at / band.width;
             const SurfacePoint point = surfacePoint(scene, band.rays[at], band.hits[at]);
@@ -100,7 +100,7 @@ std::vector<Vec3d> bandLight(const Scene& scene, const PrimaryRays& make, const 
     for (size_t i = 0; i < band.hits.size(); ++i)
         if (!band.hits[i].isMiss()) band.seen.push_back(i);
     const std::vector<double> open = openness(scene, band, reach, closestHits);
-    parallelChunks(band.seen.size(), kGrain, [&](size_t begin, size_t end) {
+    parallelChunks(band.seen.size(), kPixelsPerTask, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const size_t at = band.seen[i];
             light[at] = shade(scene, band.rays[at], band.hits[at], frame, open[i]);

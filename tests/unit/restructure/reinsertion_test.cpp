@@ -212,7 +212,7 @@ TEST(Reinsertion, recreatesTreelets) {
             TreeEditor tree(scene, before, options);
             std::vector<uint8_t> touched(tree.size());
             SubtreeMoves moves(tree, touched.data());
-            Treelet treelet(moves, 0, leaves);
+            ReinsertionTreelet treelet(moves, 0, leaves);
             Random random(1);
             const uint32_t better = treelet.improve(steps, random);
             treelet.write(moves);

@@ -28,12 +28,12 @@ float leastCost(const std::vector<test::Subtree>& nodes, const TreeletCosts& cos
     return least;
 }
 
-constexpr TreeletCosts kCosts[] = {{1, 1, 0}, {1, 1, 4}, {1.2f, 1, 6}, {10, 1, 1000}, {1, 10, 1000}};
+constexpr TreeletCosts kCostsOfTr[] = {{1, 1, 0}, {1, 1, 4}, {1.2f, 1, 6}, {10, 1, 1000}, {1, 10, 1000}};
 
 TEST(Tr, findsTheBestOfAllTrees) {
     for (uint32_t size = 3; size <= 6; ++size)
         for (uint64_t seed = 0; seed < 20; ++seed)
-            for (const TreeletCosts& costs : kCosts) {
+            for (const TreeletCosts& costs : kCostsOfTr) {
                 SCOPED_TRACE(testing::Message() << size << " leaves, seed " << seed << ", costs "
                                                 << costs.traversal << "/" << costs.intersection);
                 const Treelet treelet = test::randomTreelet(size, seed, seed % 4 == 0);
@@ -48,7 +48,7 @@ TEST(Tr, findsTheBestOfAllTrees) {
 
 TEST(Tr, plansTreeletsOfAnySize) {
     for (uint32_t size = 7; size <= kLargestOptimalTreelet; ++size)
-        for (const TreeletCosts& costs : kCosts) {
+        for (const TreeletCosts& costs : kCostsOfTr) {
             const Treelet treelet = test::randomTreelet(size, size, false);
             // Any other tree costs no less: that of one leaf less with the last put beside the root, say.
             Treelet smaller = treelet;
@@ -67,7 +67,7 @@ TEST(Tr, plansTreeletsOfAnySize) {
 
 TEST(Tr, plansOnlyWhatCostsLess) {
     for (uint64_t seed = 0; seed < 10; ++seed)
-        for (const TreeletCosts& costs : kCosts) {
+        for (const TreeletCosts& costs : kCostsOfTr) {
             const Treelet treelet = test::randomTreelet(7, seed, seed % 2 == 0);
             TreeletPlan plan;
             ASSERT_TRUE(planOptimally(treelet, costs, test::kNoLimit, plan));
@@ -82,12 +82,12 @@ TEST(Tr, plansTheSameOnAnyProcessor) {
         for (uint64_t seed = 0; seed < 6; ++seed) {
             const Treelet treelet = test::randomTreelet(size, seed, seed % 2 == 0);
             TreeletPlan expected{};
-            ASSERT_TRUE(planOptimally(treelet, kCosts[1], test::kNoLimit, expected));
+            ASSERT_TRUE(planOptimally(treelet, kCostsOfTr[1], test::kNoLimit, expected));
             for (int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
                 hwy::SetSupportedTargetsForTest(targets & -targets);
                 hwy::GetChosenTarget().Update(hwy::SupportedTargets());
                 TreeletPlan plan{};
-                planOptimally(treelet, kCosts[1], test::kNoLimit, plan);
+                planOptimally(treelet, kCostsOfTr[1], test::kNoLimit, plan);
                 EXPECT_EQ(std::memcmp(&plan, &expected, sizeof plan), 0)
                     << hwy::TargetName(targets & -targets) << ", " << size << " leaves, seed " << seed;
                 hwy::SetSupportedTargetsForTest(0);

@@ -7,14 +7,6 @@
 namespace bvhio {
 namespace {
 
-Mesh triangleMesh(const std::string& name) {
-    return {name, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
-}
-
-Transform translation(double x, double y, double z) {
-    return {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z};
-}
-
 std::string flattenRefusal(const ImportedScene& scene, const ImportOptions& options = {}) {
     try {
         flatten(scene, options);

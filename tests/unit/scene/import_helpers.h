@@ -18,6 +18,13 @@ inline std::span<const std::byte> asBytes(std::string_view text) {
     return std::as_bytes(std::span(text));
 }
 
+inline Mesh triangleMesh(const std::string& name) {
+    return {name, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+}
+inline Transform translation(double x, double y, double z) {
+    return {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z};
+}
+
 inline ImportedScene importText(std::string_view text, const std::string& name) {
     return importBytes(asBytes(text), name, ".");
 }

@@ -6,17 +6,11 @@
 namespace bvhio {
 namespace {
 
-Mesh triangleMesh(const std::string& name) {
-    return {name, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
-}
 Mesh pairMesh(const std::string& name) {
     return {name, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 3}}, {{0, 1, 2}, {1, 3, 2}}};
 }
 const Mesh kPoints{"points", {{1, 1, 1}}, {}};
 
-Transform translation(double x, double y, double z) {
-    return {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z};
-}
 Transform scale(double x, double y, double z) {
     return {x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0};
 }

@@ -10,7 +10,7 @@
 namespace bvhio {
 namespace {
 
-std::string messageOf(std::span<const std::byte> bytes) {
+std::string refusalOf(std::span<const std::byte> bytes) {
     try {
         decodeRays(bytes, "test.rays");
     } catch (const Error& error) {
@@ -23,21 +23,21 @@ std::string messageOf(std::span<const std::byte> bytes) {
 TEST(RayFile, refusesEveryTruncation) {
     const auto bytes = encodeRays(std::vector<Ray>(3));
     for (size_t size = 0; size < bytes.size(); ++size)
-        EXPECT_NE(messageOf(std::span(bytes).first(size)), "accepted") << size;
-    EXPECT_EQ(messageOf(bytes), "accepted");
+        EXPECT_NE(refusalOf(std::span(bytes).first(size)), "accepted") << size;
+    EXPECT_EQ(refusalOf(bytes), "accepted");
 }
 
 TEST(RayFile, refusesWhatIsNotOne) {
-    EXPECT_EQ(messageOf({}), "test.rays: does not start with 'BVHRAYS1': it is not a file of rays");
+    EXPECT_EQ(refusalOf({}), "test.rays: does not start with 'BVHRAYS1': it is not a file of rays");
     auto bytes = encodeRays(std::vector<Ray>(1));
     bytes[7] = std::byte{'2'};
-    EXPECT_EQ(messageOf(bytes), "test.rays: does not start with 'BVHRAYS1': it is not a file of rays");
+    EXPECT_EQ(refusalOf(bytes), "test.rays: does not start with 'BVHRAYS1': it is not a file of rays");
 }
 
 TEST(RayFile, refusesMoreBytesThanItAnnounces) {
     auto bytes = encodeRays(std::vector<Ray>(2));
     bytes.push_back({});
-    EXPECT_EQ(messageOf(bytes), "test.rays: 1 bytes follow its 2 rays");
+    EXPECT_EQ(refusalOf(bytes), "test.rays: 1 bytes follow its 2 rays");
 }
 
 // A count near 2^64 must neither wrap around in a product nor be allocated.
@@ -45,7 +45,7 @@ TEST(RayFile, refusesHugeCounts) {
     auto bytes = encodeRays(std::vector<Ray>(1));
     for (const uint64_t count : {uint64_t(2), uint64_t(1) << 59, (uint64_t(1) << 59) + 1, ~uint64_t(0)}) {
         std::memcpy(bytes.data() + 8, &count, 8);
-        EXPECT_EQ(messageOf(bytes),
+        EXPECT_EQ(refusalOf(bytes),
                   "test.rays: announces " + std::to_string(count) + " rays but holds 1: it was cut short");
     }
 }

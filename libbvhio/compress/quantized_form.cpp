@@ -83,7 +83,7 @@ RootPlaces placesOf(const Aabb& bounds) {
     return {{InsetFrame(bounds)}, {bounds}, {InsetBox{}}, {}};
 }
 
-void refuseTooMany(size_t references) {
+void refuseTooManyForQuantized(size_t references) {
     if (references > QuantizedRecord::kMaxReferences)
         throw Error(ErrorKind::unsupported, "the quantized form holds at most " +
                                                 std::to_string(QuantizedRecord::kMaxReferences) +
@@ -93,7 +93,7 @@ void refuseTooMany(size_t references) {
 }  // namespace
 
 QuantizedForm QuantizedForm::encode(const Scene&, const Bvh& given, const EncodeOptions& options) {
-    refuseTooMany(given.primitives.size());
+    refuseTooManyForQuantized(given.primitives.size());
     const Bvh bvh = divideLeaves(given, QuantizedRecord::kMaxLeafSize);
     const std::span<const Node> nodes = bvh.nodes;
     const Aabb& bounds = nodes[0].bounds;
@@ -115,7 +115,7 @@ Bvh QuantizedForm::decode(InsetBox* insets) const {
 
 QuantizedForm::Trees QuantizedForm::encodeTrees(const Forest& given, const RootPlaces& places,
                                                 size_t references, uint32_t bits) {
-    refuseTooMany(references);
+    refuseTooManyForQuantized(references);
     const Forest forest = divideLeaves(given, QuantizedRecord::kMaxLeafSize);
     Buffer<QuantizedRoot> roots(forest.roots.size());
     for (size_t i = 0; i < roots.size(); ++i) {

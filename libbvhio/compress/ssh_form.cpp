@@ -88,7 +88,7 @@ int separatingAxis(const Aabb& a, const Aabb& b) {
     return best;
 }
 
-void refuseTooMany(size_t references) {
+void refuseTooManyForSsh(size_t references) {
     if (references > SshNode::kMaxReferences)
         throw Error(ErrorKind::unsupported, "the ssh form holds at most " +
                                                 std::to_string(SshNode::kMaxReferences) +
@@ -139,7 +139,7 @@ Node decoded(const SshNode& node, Aabb box, Buffer<Node>& nodes) {
 }  // namespace
 
 SshForm SshForm::encode(const Scene&, const Bvh& bvh, const EncodeOptions&) {
-    refuseTooMany(bvh.primitives.size());
+    refuseTooManyForSsh(bvh.primitives.size());
     const SharedArray<Node> given = divideLeaves(bvh, SshNode::kMaxLeafSize).nodes;
     PairEncoder encoder(given);
     Buffer<SshNode> nodes(given.size());
@@ -150,7 +150,7 @@ SshForm SshForm::encode(const Scene&, const Bvh& bvh, const EncodeOptions&) {
 }
 
 SshForm::Trees SshForm::encodeTrees(const Forest& forest, std::span<const Aabb> boxes, size_t references) {
-    refuseTooMany(references);
+    refuseTooManyForSsh(references);
     const Forest given = divideLeaves(forest, SshNode::kMaxLeafSize);
     PairEncoder encoder(given.nodes);
     Buffer<uint32_t> roots(given.roots.size());

@@ -7,7 +7,7 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kNone = ClusterPair::kNone;
+constexpr uint32_t kNoPair = ClusterPair::kNone;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// What a slot costs, in fetches of a record that is fetched as often as the mean: 1 percent more memory may
@@ -54,7 +54,7 @@ class Knapsack {
         const uint32_t own = unitsOf(pair);
         uint32_t most = own;
         for (const uint32_t child : pair.children)
-            if (child != kNone) most += std::max(2u, tables_[child].size) - 1;
+            if (child != kNoPair) most += std::max(2u, tables_[child].size) - 1;
         Table& table = tables_[p];
         table.offset = costs_.size();
         table.size = std::min(most, limits_.slots) + 1;
@@ -62,7 +62,7 @@ class Knapsack {
         float* costs = costs_.data() + table.offset;
         const auto sharesOf = [&](uint32_t child, std::vector<float>& shares) {
             shares.assign(1, 0);
-            if (child == kNone) return;
+            if (child == kNoPair) return;
             shares.resize(tables_[child].size);
             shares[0] = kInfinity;
             for (uint32_t s = 1; s < shares.size(); ++s) shares[s] = shareOf(child, s);
@@ -104,8 +104,8 @@ class Knapsack {
             const uint32_t rest = share.units - unitsOf(pair);
             const auto [left, right] = pair.children;
             uint32_t toLeft = 0;
-            if (left != kNone && right == kNone) toLeft = rest;
-            if (left != kNone && right != kNone) {
+            if (left != kNoPair && right == kNoPair) toLeft = rest;
+            if (left != kNoPair && right != kNoPair) {
                 float least = kInfinity;
                 for (uint32_t i = 1; i < std::min(tables_[left].size, rest); ++i) {
                     if (rest - i >= tables_[right].size) continue;
@@ -117,7 +117,7 @@ class Knapsack {
                 }
             }
             for (const auto& [child, units] : {Share{left, toLeft}, Share{right, rest - toLeft}}) {
-                if (child == kNone) continue;
+                if (child == kNoPair) continue;
                 pairs_[child].isCut = units == 1 && tables_[child].cut < costOf(child, 1);
                 waiting.push_back({child, pairs_[child].isCut ? tables_[child].best : units});
             }
@@ -139,7 +139,7 @@ bool exceedsEntries(const std::vector<ClusterPair>& pairs, uint32_t limit) {
     for (size_t p = pairs.size(); p-- > 0;) {
         entries[p] += pairs[p].entries;
         for (const uint32_t child : pairs[p].children)
-            if (child != kNone && !pairs[child].isCut) entries[p] += entries[child];
+            if (child != kNoPair && !pairs[child].isCut) entries[p] += entries[child];
         if (entries[p] > limit) return true;
     }
     return false;
@@ -174,7 +174,7 @@ void cutFromAbove(std::vector<ClusterPair>& pairs, const ClusterLimits& limits) 
             ++size;
             entries += next.entries;
             for (const uint32_t child : next.children)
-                if (child != kNone) border.push(child);
+                if (child != kNoPair) border.push(child);
         }
         for (; !border.empty(); border.pop()) {
             pairs[border.top()].isCut = true;

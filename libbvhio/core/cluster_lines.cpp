@@ -8,12 +8,12 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kNone = ClusterItem::kNone;
+constexpr uint32_t kNoItem = ClusterItem::kNone;
 
 /// Connected items in one line, parents first.
-struct Part {
+struct LinePart {
     std::vector<uint32_t> items;
-    uint32_t parent = kNone;         // the part that has the parent of its first item
+    uint32_t parent = kNoItem;       // the part that has the parent of its first item
     std::vector<uint32_t> children;  // parts
 };
 
@@ -34,7 +34,7 @@ class BestParts {
             fill(uint32_t(part), root, bestSize(root));
         }
     }
-    std::vector<Part> parts() && { return std::move(parts_); }
+    std::vector<LinePart> parts() && { return std::move(parts_); }
 
   private:
     double& cost(uint32_t item, uint32_t size) { return cost_[item * stride_ + size]; }
@@ -50,7 +50,7 @@ class BestParts {
         // Column 0 of a child: it starts a line of its own. That is known when the parent is met.
         uint32_t room[2] = {};
         for (size_t side = 0; side < 2; ++side)
-            if (const uint32_t child = items_[item].children[side]; child != kNone)
+            if (const uint32_t child = items_[item].children[side]; child != kNoItem)
                 room[side] = sizes_[child];
         sizes_[item] = std::min(lineSlots, 1 + room[0] + room[1]);
         for (uint32_t size = 1; size <= sizes_[item]; ++size) {
@@ -69,7 +69,7 @@ class BestParts {
     }
     double costOf(uint32_t item, size_t side, uint32_t size) {
         const uint32_t child = items_[item].children[side];
-        return child == kNone ? 0 : cost(child, size);
+        return child == kNoItem ? 0 : cost(child, size);
     }
 
     void fill(uint32_t part, uint32_t item, uint32_t size) {
@@ -78,7 +78,7 @@ class BestParts {
         const uint32_t shares[2] = {left, size - 1 - left};
         for (size_t side = 0; side < 2; ++side) {
             const uint32_t child = items_[item].children[side];
-            if (child == kNone) continue;
+            if (child == kNoItem) continue;
             if (shares[side] > 0) {
                 fill(part, child, shares[side]);
             } else {
@@ -94,7 +94,7 @@ class BestParts {
     std::vector<double> cost_;
     std::vector<uint8_t> share_;   // of the left child
     std::vector<uint32_t> sizes_;  // the most items in a line below an item
-    std::vector<Part> parts_;
+    std::vector<LinePart> parts_;
     std::vector<uint32_t> roots_;  // first items of parts 1 and on
 };
 
@@ -103,7 +103,8 @@ class BestParts {
 /// from the rest: siblings first, then the longest that fits.
 class LinesOfParts {
   public:
-    LinesOfParts(const std::vector<ClusterItem>& items, const std::vector<Part>& parts, uint32_t lineSlots)
+    LinesOfParts(const std::vector<ClusterItem>& items, const std::vector<LinePart>& parts,
+                 uint32_t lineSlots)
         : items_(items),
           parts_(parts),
           lineSlots_(lineSlots),
@@ -112,19 +113,19 @@ class LinesOfParts {
           first_(Lighter{*this}) {
         makeReady(0);
         while (true) {
-            uint32_t part = kNone;
-            while (part == kNone && !first_.empty()) {
+            uint32_t part = kNoItem;
+            while (part == kNoItem && !first_.empty()) {
                 if (!isPlaced_[first_.top()]) part = first_.top();
                 first_.pop();
             }
-            if (part == kNone) part = longest(lineSlots - 1);
-            if (part == kNone) break;
+            if (part == kNoItem) part = longest(lineSlots - 1);
+            if (part == kNoItem) break;
             lines_.emplace_back();
-            for (uint32_t next = part; next != kNone;) {
+            for (uint32_t next = part; next != kNoItem;) {
                 place(next);
                 const uint32_t room = lineSlots_ - uint32_t(lines_.back().size());
                 next = siblingOf(part, room);
-                if (next == kNone) next = longest(room);
+                if (next == kNoItem) next = longest(room);
             }
         }
     }
@@ -151,10 +152,11 @@ class LinesOfParts {
         for (const uint32_t child : parts_[part].children) makeReady(child);
     }
     uint32_t siblingOf(uint32_t part, uint32_t room) const {
-        uint32_t best = kNone;
-        if (parts_[part].parent == kNone) return best;
+        uint32_t best = kNoItem;
+        if (parts_[part].parent == kNoItem) return best;
         for (const uint32_t sibling : parts_[parts_[part].parent].children)
-            if (!isPlaced_[sibling] && size(sibling) <= room && (best == kNone || size(sibling) > size(best)))
+            if (!isPlaced_[sibling] && size(sibling) <= room &&
+                (best == kNoItem || size(sibling) > size(best)))
                 best = sibling;
         return best;
     }
@@ -164,11 +166,11 @@ class LinesOfParts {
             while (!parts.empty() && isPlaced_[parts.back()]) parts.pop_back();
             if (!parts.empty()) return parts.back();
         }
-        return kNone;
+        return kNoItem;
     }
 
     const std::vector<ClusterItem>& items_;
-    const std::vector<Part>& parts_;
+    const std::vector<LinePart>& parts_;
     uint32_t lineSlots_;
     std::vector<std::vector<uint32_t>> bySize_;  // parts that are ready and not full
     std::vector<bool> isPlaced_;
@@ -179,7 +181,7 @@ class LinesOfParts {
 }  // namespace
 
 ClusterLines packLines(const std::vector<ClusterItem>& items, uint32_t lineSlots) {
-    const std::vector<Part> parts = BestParts(items, lineSlots).parts();
+    const std::vector<LinePart> parts = BestParts(items, lineSlots).parts();
     return LinesOfParts(items, parts, lineSlots).lines();
 }
 
@@ -198,7 +200,7 @@ ClusterLines growLines(const std::vector<ClusterItem>& items, uint32_t lineSlots
             line.push_back(border.top());
             border.pop();
             for (const uint32_t child : items[line.back()].children)
-                if (child != kNone) border.push(child);
+                if (child != kNoItem) border.push(child);
         }
         const auto behind = std::ptrdiff_t(roots.size());
         for (; !border.empty(); border.pop()) roots.push_back(border.top());

@@ -9,7 +9,7 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kNone = ClusterItem::kNone;
+constexpr uint32_t kNoParent = ClusterItem::kNone;
 
 /// Depth first, left before right, so that ties do not depend on their order in memory.
 std::vector<ClusterPair> pairsOf(const Bvh& bvh, std::span<const double> weights) {
@@ -18,13 +18,13 @@ std::vector<ClusterPair> pairsOf(const Bvh& bvh, std::span<const double> weights
     struct Waiting {
         uint32_t node, parent, side;
     };
-    std::vector<Waiting> waiting{{0, kNone, 0}};  // inner nodes
+    std::vector<Waiting> waiting{{0, kNoParent, 0}};  // inner nodes
     while (!waiting.empty()) {
         const Waiting next = waiting.back();
         waiting.pop_back();
         const Node& above = bvh.nodes[next.node];
         const auto number = uint32_t(pairs.size());
-        if (next.parent != kNone) pairs[next.parent].children[next.side] = number;
+        if (next.parent != kNoParent) pairs[next.parent].children[next.side] = number;
         ClusterPair& pair = pairs.emplace_back();
         pair.index = above.left() / 2 - 1;
         pair.weight = weights.empty() ? halfArea(above.bounds) : weights[pair.index + 1];
@@ -46,7 +46,7 @@ void gather(const std::vector<ClusterPair>& pairs, uint32_t root, std::vector<Cl
         const ClusterPair& pair = pairs[items[i].word];
         for (size_t side = 0; side < 2; ++side) {
             const uint32_t child = pair.children[side];
-            if (child == kNone) continue;
+            if (child == kNoParent) continue;
             items[i].children[side] = uint32_t(items.size());
             items.push_back({child | (pairs[child].isCut ? SlotMap::kGlue : 0), pairs[child].weight});
         }

@@ -8,15 +8,15 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kNone = 0xFFFFFFFF;
+constexpr uint32_t kNoPlace = 0xFFFFFFFF;
 
 std::string atSlot(size_t slot, const std::string& what) {
     return "slot " + std::to_string(slot) + what;
 }
 
-/// The pair of each pair's parent; kNone for the root's children.
+/// The pair of each pair's parent; kNoPlace for the root's children.
 std::vector<uint32_t> parentsOfPairs(const Bvh& bvh) {
-    std::vector<uint32_t> parents(bvh.nodes.size() / 2 - 1, kNone);
+    std::vector<uint32_t> parents(bvh.nodes.size() / 2 - 1, kNoPlace);
     for (size_t i = 2; i < bvh.nodes.size(); ++i)
         if (!bvh.nodes[i].isLeaf()) parents[bvh.nodes[i].left() / 2 - 1] = uint32_t(i / 2 - 1);
     return parents;
@@ -32,14 +32,14 @@ std::string faultOfSlots(const Bvh& bvh) {
         return "lines of " + std::to_string(map.lineSlots) + " slots: no power of two up to 64";
     const std::vector<uint32_t> parents = parentsOfPairs(bvh);
     const size_t pairs = parents.size();
-    std::vector<uint32_t> slotOf(pairs, kNone), glueOf(pairs, kNone);
+    std::vector<uint32_t> slotOf(pairs, kNoPlace), glueOf(pairs, kNoPlace);
     size_t records = 0;
     for (size_t slot = 0; slot < map.words.size(); ++slot) {
         const uint32_t word = map.words[slot], pair = word & ~SlotMap::kGlue;
         if (word == SlotMap::kEmpty) continue;
         if (pair >= pairs) return atSlot(slot, " names pair " + std::to_string(pair) + ", which is none");
         std::vector<uint32_t>& of = (word & SlotMap::kGlue) != 0 ? glueOf : slotOf;
-        if (of[pair] != kNone) return atSlot(slot, " repeats " + atSlot(of[pair], ""));
+        if (of[pair] != kNoPlace) return atSlot(slot, " repeats " + atSlot(of[pair], ""));
         of[pair] = uint32_t(slot);
         records += (word & SlotMap::kGlue) == 0;
     }
@@ -49,7 +49,7 @@ std::string faultOfSlots(const Bvh& bvh) {
     uint32_t cluster = 0;
     for (size_t slot = 0; slot < map.words.size(); ++slot) {
         const uint32_t word = map.words[slot];
-        if ((word & SlotMap::kGlue) == 0 && (glueOf[word] != kNone || parents[word] == kNone)) {
+        if ((word & SlotMap::kGlue) == 0 && (glueOf[word] != kNoPlace || parents[word] == kNoPlace)) {
             cluster = uint32_t(slot);
             if (slot % map.lineSlots != 0) return atSlot(slot, " starts a cluster but no line");
         }
@@ -59,12 +59,12 @@ std::string faultOfSlots(const Bvh& bvh) {
     }
     for (size_t pair = 0; pair < pairs; ++pair) {
         const uint32_t parent = parents[pair];
-        if (parent == kNone) {
+        if (parent == kNoPlace) {
             if (slotOf[pair] != 0) return "slot 0 does not hold the root's children";
-            if (glueOf[pair] != kNone) return atSlot(glueOf[pair], " leads to the root's children");
+            if (glueOf[pair] != kNoPlace) return atSlot(glueOf[pair], " leads to the root's children");
             continue;
         }
-        const uint32_t named = glueOf[pair] != kNone ? glueOf[pair] : slotOf[pair];
+        const uint32_t named = glueOf[pair] != kNoPlace ? glueOf[pair] : slotOf[pair];
         if (clusterOf[named] != clusterOf[slotOf[parent]])
             return atSlot(named, " is in another cluster than the parent's");
         if (named <= slotOf[parent] || slotOf[pair] < named)

@@ -19,7 +19,7 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kNone = PairTree::kNone;
+constexpr uint32_t kNoCluster = PairTree::kNone;
 constexpr uint32_t kPageBytes = 4096;
 // More pairs than this a cluster of a line does not have; longer lines have several.
 constexpr uint32_t kMaxClusterSize = 16;
@@ -51,7 +51,7 @@ class Packer {
                 if (placed_[start] == 0) placePage(start);
             }
             const uint32_t first = firstWaiting();
-            if (first == kNone) return std::move(order_);
+            if (first == kNoCluster) return std::move(order_);
             placeRegardless(first);
         }
     }
@@ -116,10 +116,10 @@ class Packer {
 
     /// When only clusters are left that complete no line: places one, and what fits behind it.
     void placeRegardless(uint32_t cluster) {
-        for (uint32_t next = cluster; next != kNone;) {
+        for (uint32_t next = cluster; next != kNoCluster;) {
             place(next);
-            next = kNone;
-            for (uint32_t size = missingAfter(0); size > 0 && next == kNone; --size)
+            next = kNoCluster;
+            for (uint32_t size = missingAfter(0); size > 0 && next == kNoCluster; --size)
                 next = nearestWaiting(size, cluster);
         }
         starts_.insert(starts_.end(), exposed_.rbegin(), exposed_.rend());
@@ -132,7 +132,7 @@ class Packer {
         if (room == 0) return true;
         for (uint32_t size = std::min(room, largest); size > 0; --size) {
             const uint32_t part = nearestWaiting(size, near);
-            if (part == kNone) continue;
+            if (part == kNoCluster) continue;
             stopWaiting(part);
             parts_.push_back(part);
             if (complete(room - size, near, size)) return true;
@@ -156,12 +156,12 @@ class Packer {
     uint32_t nearestWaiting(uint32_t size, uint32_t to) const {
         const std::set<uint32_t>& clusters = waiting_[size];
         const auto behind = clusters.lower_bound(to);
-        if (behind == clusters.begin()) return behind == clusters.end() ? kNone : *behind;
+        if (behind == clusters.begin()) return behind == clusters.end() ? kNoCluster : *behind;
         const uint32_t before = *std::prev(behind);
         return behind != clusters.end() && *behind - to < to - before ? *behind : before;
     }
     uint32_t firstWaiting() const {
-        uint32_t first = kNone;
+        uint32_t first = kNoCluster;
         for (const auto& clusters : waiting_)
             if (!clusters.empty()) first = std::min(first, *clusters.begin());
         return first;
@@ -176,7 +176,7 @@ class Packer {
             visit(pair);
             for (const uint32_t side : {1u, 0u}) {
                 const uint32_t child = tree_[pair].children[side];
-                if (child == kNone) continue;
+                if (child == kNoCluster) continue;
                 if (top_[child] == cluster)
                     stack[waiting++] = child;
                 else

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "core/error.h"
+#include "trace/split.h"
 
 namespace bvhio {
 namespace {
@@ -13,16 +14,6 @@ constexpr uint64_t kMaxBytes = uint64_t(1) << 40, kMaxLine = uint64_t(1) << 30, 
                    kMaxWays = 1024;
 constexpr size_t kMaxLevels = 8;
 constexpr uint64_t kNoLine = ~uint64_t(0);
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    for (size_t begin = 0; begin <= text.size();) {
-        const size_t end = std::min(text.find(separator, begin), text.size());
-        parts.push_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return parts;
-}
 
 /// A whole number from 1 to 2^40, K, M and G behind it allowed; 0 for anything else.
 uint64_t parseSize(std::string_view text) {

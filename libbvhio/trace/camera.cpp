@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "trace/split.h"
 
 namespace bvhio {
 namespace {
@@ -15,16 +16,6 @@ std::string quoted(std::string_view text) {
 [[noreturn]] void refuse(std::string_view text, const std::string& why) {
     throw Error(ErrorKind::usage, "camera " + quoted(text) + ": " + why +
                                       "; write EYE:TARGET[:FOV[:UP]], as in 0,1,5:0,1,0:60:0,1,0");
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    for (;;) {
-        const size_t at = text.find(separator);
-        parts.push_back(text.substr(0, at));
-        if (at == std::string_view::npos) return parts;
-        text.remove_prefix(at + 1);
-    }
 }
 
 float parseNumber(std::string_view whole, std::string_view text) {

@@ -9,7 +9,7 @@ namespace bvhio {
 namespace {
 
 // Each task has counts of its own.
-constexpr size_t kRaysPerTask = 65536;
+constexpr size_t kRaysPerCount = 65536;
 
 /// The metrics policy that counts fetches of each record.
 struct VisitMetrics {
@@ -39,7 +39,7 @@ std::vector<uint32_t> countVisits(const Scene& scene, const Bvh& bvh, std::span<
     const AabbForm form(bvh);
     std::vector<uint32_t> sums(bvh.nodes.size() / 2, 0);
     std::mutex mutex;
-    parallelChunks(rays.size(), kRaysPerTask, [&](size_t begin, size_t end) {
+    parallelChunks(rays.size(), kRaysPerCount, [&](size_t begin, size_t end) {
         VisitMetrics metrics{std::vector<uint32_t>(sums.size(), 0)};
         const auto part = rays.subspan(begin, end - begin);
         if (query == Query::closest)

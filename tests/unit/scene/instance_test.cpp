@@ -10,7 +10,7 @@
 namespace bvhio {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kUnlimited = std::numeric_limits<float>::infinity();
 
 Vec3 randomPoint(Random& random, float size) {
     const float x = random.uniform(-size, size), y = random.uniform(-size, size);
@@ -27,7 +27,7 @@ TEST(Instance, refusesTransformsThatCannotBeUndone) {
     EXPECT_TRUE(inverse(kIdentityAffine));
     EXPECT_FALSE(inverse({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}));  // flat
     EXPECT_FALSE(inverse({1, 2, 3, 0, 2, 4, 6, 0, 0, 0, 1, 0}));  // two parallel rows
-    EXPECT_FALSE(inverse({kInfinity, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}));
+    EXPECT_FALSE(inverse({kUnlimited, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}));
     EXPECT_FALSE(inverse({1, 0, 0, NAN, 0, 1, 0, 0, 0, 0, 1, 0}));
     // Of the smallest and the largest floats too: nothing under- or overflows.
     for (const float scale : {std::numeric_limits<float>::denorm_min(), std::numeric_limits<float>::max()}) {

@@ -10,7 +10,7 @@
 namespace bvhio {
 namespace {
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kForever = std::numeric_limits<float>::infinity();
 
 // One ray goes through both leaves below the root's left child, one hits the nearer of them, one enters the
 // root alone, one misses it, and one misses by definition.
@@ -26,11 +26,11 @@ TEST(Visits, countTheRaysThatFetchAPair) {
     nodes[4] = {{{0, 0, 0}, {1, 1, 0}}, 0, 1};
     nodes[5] = {{{0, 0, 1}, {1, 1, 1}}, 1, 1};
     const Bvh bvh{std::move(nodes), std::vector<uint32_t>{0, 1, 2}};
-    const Ray rays[] = {{{0.9f, 0.9f, 9}, 0, {0, 0, -1}, kInf},
-                        {{0.25f, 0.25f, 9}, 0, {0, 0, -1}, kInf},
-                        {{3, 0.25f, 9}, 0, {0, 0, -1}, kInf},
-                        {{-3, 0.25f, 9}, 0, {0, 0, -1}, kInf},
-                        {{0, 0.25f, 9}, 0, {0, 0, 0}, kInf}};
+    const Ray rays[] = {{{0.9f, 0.9f, 9}, 0, {0, 0, -1}, kForever},
+                        {{0.25f, 0.25f, 9}, 0, {0, 0, -1}, kForever},
+                        {{3, 0.25f, 9}, 0, {0, 0, -1}, kForever},
+                        {{-3, 0.25f, 9}, 0, {0, 0, -1}, kForever},
+                        {{0, 0.25f, 9}, 0, {0, 0, 0}, kForever}};
     for (const Query query : {Query::closest, Query::any})
         EXPECT_EQ(countVisits(scene, bvh, rays, query), (std::vector<uint32_t>{4, 3, 2}));
 }
@@ -44,7 +44,7 @@ TEST(Visits, areWhatMeasuringCountsAndNeverAboveTheParents) {
         const float x = random.uniform(-1, 1), y = random.uniform(-1, 1);
         return Vec3{x, y, random.uniform(-1, 1)};
     };
-    for (Ray& ray : rays) ray = {point(), 0, point(), kInf};
+    for (Ray& ray : rays) ray = {point(), 0, point(), kForever};
     const std::vector<uint32_t> visits = countVisits(scene, bvh, rays, Query::closest);
     uint64_t sum = 0;
     for (const uint32_t count : visits) sum += count;

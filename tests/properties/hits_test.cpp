@@ -90,16 +90,21 @@ TEST_P(HitsInScene, equalBruteForceForEveryBuilderAndForm) {
     const std::vector<Ray> rays = raysFor(scene);
     const Expected expected(scene, rays);
     for (const Builder& builder : builders())
-        for (const uint32_t maxLeafSize : {1u, 4u, 13u})
+        for (const uint32_t maxLeafSize : {4u, 1u, 13u}) {
+            // Sizes of leaves and sources of triangles mean the same for every builder.
+            const bool isFirst = &builder == &builders()[0];
+            if (!isFirst && maxLeafSize != 4) continue;
             forEachForm(
                 scene, builder.function(scene, {.costs = {}, .maxLeafSize = maxLeafSize}),
                 [&](const std::string& form, const EncodedBvh& bvh) {
-                    for (const TriangleSource source : {TriangleSource::indexed, TriangleSource::blocks}) {
+                    for (const TriangleSource source : {TriangleSource::blocks, TriangleSource::indexed}) {
+                        if (!isFirst && source == TriangleSource::indexed) continue;
                         SCOPED_TRACE(testing::Message() << builder.name << " leaves of " << maxLeafSize << ' '
                                                         << form << " source " << int(source));
                         expectHits(Tracer(scene, bvh, source), rays, expected);
                     }
                 });
+        }
 }
 
 TEST_P(HitsInScene, equalBruteForceForEveryRestructurer) {

@@ -18,7 +18,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 COLOURS = ["#222222", "#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb"]
 
-TICKS_OF_SIZE = [2 ** i for i in range(-6, 8)]
+TICKS_OF_SIZE = [4.0**k for k in range(-3, 6)]
 TICKS_OF_TIME = [0.6, 0.8, 1, 1.2, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024]
 
 
@@ -46,7 +46,7 @@ def draw(axis, title, rows, colours):
         scale.axes.set(**{f"{scale.axis_name}scale": "log"})
         scale.set_major_locator(matplotlib.ticker.FixedLocator(ticks))
         scale.set_minor_locator(matplotlib.ticker.NullLocator())
-        scale.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+        scale.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%.3g"))
     axis.set_title(title, fontsize=10)
     axis.set_xlabel("node bytes per triangle")
     axis.set_ylabel("time over that of the aabb form")

@@ -1,6 +1,4 @@
 // bvh-compress: chooses how a container's tree is stored, and squeezes its chunks.
-#include <algorithm>
-
 #include "common/form_options.h"
 #include "common/form_search.h"
 #include "common/log.h"
@@ -45,11 +43,6 @@ Bvh treeFor(std::string_view form, const BvhxFile& file) {
 bool isInClusters(const EncodedBvh& bvh) {
     const auto* aabb = std::get_if<AabbForm>(&bvh);
     return std::holds_alternative<QuantizedShortForm>(bvh) || (aabb != nullptr && !aabb->bvh().slots.empty());
-}
-
-bool isGiven(const CommandLine& line, std::string_view name) {
-    const std::vector<std::string> given = line.given();
-    return std::find(given.begin(), given.end(), name) != given.end();
 }
 
 /// Whether the nodes are as bvh-build leaves them: all with full boxes.
@@ -153,7 +146,7 @@ ExitCode compress(CommandLine& line) {
     Report extra = Report::object();
     if (search.isWanted()) {
         pass.stages().begin("search");
-        const bool onlyForm = search.choosesForm() && isGiven(line, "--form");
+        const bool onlyForm = search.choosesForm() && line.isGiven("--form");
         const TunedEncoding* chosen =
             search.search(file.scene, exactTree(file), onlyForm ? form : "", pass.stages().progress());
         if (search.choosesForm() && chosen == nullptr) {
@@ -173,7 +166,7 @@ ExitCode compress(CommandLine& line) {
     pass.recordOptions(search.recordedOptions(line));
     pass.stages().begin("compress");
     if (file.scene.isInstanced()) {
-        encodeInstances(file, form, encoding, twoLevel.cuts());
+        encodeInstances(file, form, encoding, line.isGiven("--blas-size"));
     } else if (formNameOf(file.bvh) != form || optionsOf(file.bvh) != encoding) {
         if (form == QuantizedShortForm::kName && !isInClusters(file.bvh))
             logInfo("the tree is put in clusters as bvh-relayout --layout clusters does");

@@ -1,6 +1,4 @@
 // bvh-relayout: orders a tree's nodes in memory; its cost stays.
-#include <algorithm>
-
 #include "common/pass.h"
 #include "common/run_tool.h"
 #include "relayout/clusters.h"
@@ -62,10 +60,8 @@ class LayoutChoice {
             {"--probability", kUsesWeights},      {"--line-size", kUsesLines | kUsesLineSize},
             {"--record-bytes", kUsesLines},       {"--threshold", kUsesThreshold},
             {"--treelet-size", kUsesTreeletSize}, {"--pointer-bits", kUsesPointerBits}};
-        const std::vector<std::string> given = line_.given();
         for (const auto& [name, uses] : kUses)
-            if ((layout.function.uses & uses) == 0 &&
-                std::find(given.begin(), given.end(), name) != given.end())
+            if ((layout.function.uses & uses) == 0 && line_.isGiven(name))
                 throw Error(ErrorKind::usage, std::string(name) + ": layout " + std::string(layout.name) +
                                                   " has no use for it: leave it out");
     }

@@ -53,7 +53,7 @@ struct EncodeOptions {
     uint32_t bits = 8;  // quantized, a level of two in that form, too: of a plane, 5 to 8
 
     // quantized-short, for trees that are not in clusters
-    uint32_t pointerBits = 8;  // 6 to 10
+    uint32_t pointerBits = 8;  // 2 to 10
     uint32_t lineSize = 64;    // bytes: a power of two, 8 to 512
 
     uint32_t leafSize = 4;  // mvh, BLASes in that form, too: triangles in a leaf, 1 to 16

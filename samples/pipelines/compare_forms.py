@@ -194,10 +194,7 @@ def main():
         for key, title, _ in TREES:
             parts.append(f"## {name}: {title[0].lower() + title[1:]}\n\n" + details(rows[key]))
     text = "\n".join(parts)
-    if options.table:
-        write_after_marker(options.table, MARKER, text)
-    else:
-        print(text, end="")
+    write_after_marker(options.table, MARKER, text)
 
 
 if __name__ == "__main__":

@@ -387,10 +387,7 @@ def main():
     for name, tables in scenes:
         parts += scene_tables(name, tables, found)
     text = "\n".join(parts)
-    if options.table:
-        write_after_marker(options.table, MARKER, text)
-    else:
-        print(text, end="")
+    write_after_marker(options.table, MARKER, text)
 
 
 if __name__ == "__main__":

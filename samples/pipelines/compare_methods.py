@@ -176,10 +176,7 @@ def main():
             rows = measure(scene, chains, max(1, options.rounds), options.rays, work)
             scenes.append((os.path.splitext(os.path.basename(scene))[0], rows))
     text = "\n".join(table(title, rows) for title, rows in scenes)
-    if options.table:
-        write_after_marker(options.table, MARKER, text)
-    else:
-        print(text, end="")
+    write_after_marker(options.table, MARKER, text)
     if options.plot:
         plot(scenes, options.plot)
 

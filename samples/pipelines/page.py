@@ -3,7 +3,10 @@ import os
 
 
 def write_after_marker(path, marker, text):
-    """Replaces what follows the marker in a page that has it, and else the whole file."""
+    """Replaces what follows the marker in a page that has it, and else the whole file. Without a path it prints."""
+    if not path:
+        print(text, end="")
+        return
     head = ""
     if os.path.exists(path):
         with open(path) as file:

@@ -281,6 +281,11 @@ std::vector<std::string> CommandLine::given() const {
     return names;
 }
 
+bool CommandLine::isGiven(std::string_view name) const {
+    const std::vector<std::string> names = given();
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 void CommandLine::assign(const std::string& name, const std::string& value) {
     parser_->app.get_option(name)->clear();
     parser_->app.get_option(name)->add_result(value);

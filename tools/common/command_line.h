@@ -81,6 +81,8 @@ class CommandLine {
     Report options() const;
     /// Those of them that the command line has, as "--bins". For parse() to have run.
     std::vector<std::string> given() const;
+    /// Whether `name`, "--bins", is one of these.
+    bool isGiven(std::string_view name) const;
     /// Sets one of them, "--bins", as if the command line had it.
     void assign(const std::string& name, const std::string& value);
     ProgressMode progressMode() const { return progressMode_; }

@@ -85,13 +85,9 @@ class TwoLevelOptions {
         }
         take(tlasForm_, options.tlasForm);
         take(blasForm_, options.blasForm);
-        wasSizeGiven_ = blasSize_ != 0;
         if (blasSize_ == 0) blasSize_ = options.blasSize;
         options.blasSize = blasSize_;
     }
-
-    /// Whether a size to cut by was given.
-    bool cuts() const { return wasSizeGiven_; }
 
   private:
     template <class LevelForm>
@@ -110,7 +106,6 @@ class TwoLevelOptions {
 
     std::string tlasForm_, blasForm_;
     uint32_t blasSize_ = 0;
-    bool wasSizeGiven_ = false;
 };
 
 /// Options of the mvh form, and of BLASes in it: empty or 0 where not given.

@@ -106,9 +106,7 @@ ExitCode compress(CommandLine& line) {
                       vertexOrder(kVertexOrders[0].name);
     uint32_t level = 0, positionBits = 16;
     line.choice("--form", form, namedValues(forms()), "how nodes are stored");
-    QuantizedOptions quantized(line);
-    TwoLevelOptions twoLevel(line);
-    MvhOptions mvh(line);
+    FormOptions formOptions(line);
     FormSearch search(line);
     line.choice("--codec", codec, codecNames(), "what squeezes the chunks");
     line.number("--level", level, 0, 22, "the codec's effort; 0: its own default");
@@ -123,19 +121,13 @@ ExitCode compress(CommandLine& line) {
     search.prepare(
         line, {"--codec", "--level", "--geometry", "--position-bits", "--triangle-order", "--vertex-order"});
 
-    const auto givenEncoding = [&](EncodeOptions options) {
-        twoLevel.addTo(options, form);
-        quantized.addTo(options, form);
-        mvh.addTo(options, form);
-        return options;
-    };
     const bool topology = codec == "topology";
     if (topology && form.empty()) form = AabbForm::kName;
     if (topology && (form != AabbForm::kName || search.choosesForm()))
         throw Error(ErrorKind::usage,
                     "--codec topology: only --form aabb has boxes that fit again: use --codec zstd");
     // What suits BLASes is known when it is known whether they are meshes.
-    if (!form.empty() && form != TwoLevelForm::kName) givenEncoding({});
+    if (!form.empty() && form != TwoLevelForm::kName) formOptions.check(form, {});
     BvhxFile file = pass.read();
     // A compact form stays what it is, unless told otherwise.
     const bool stays = form.empty() && !search.choosesForm() && !isPlain(file.bvh);
@@ -156,10 +148,13 @@ ExitCode compress(CommandLine& line) {
         if (chosen != nullptr) search.assignTo(line);
         extra["search"] = search.report();
     }
-    EncodeOptions defaults;
-    if (file.scene.isInstanced()) defaults.blasForm = BlasForm::quantized;  // for large trees mvh is slow
-    EncodeOptions encoding = givenEncoding(stays ? optionsOf(file.bvh) : defaults);
-    if (form == QuantizedForm::kName && quantized.isShort(isInClusters(file.bvh))) {
+    EncodeOptions defaults = stays ? optionsOf(file.bvh) : EncodeOptions{};
+    if (!stays && file.scene.isInstanced())
+        defaults.blasForm = BlasForm::quantized;  // for large trees mvh is slow
+    formOptions.check(form, defaults);
+    const bool isShort = form == QuantizedForm::kName && formOptions.isShort(isInClusters(file.bvh));
+    EncodeOptions encoding = formOptions.fill(form, defaults);
+    if (isShort) {
         form = QuantizedShortForm::kName;
         encoding.bits = EncodeOptions{}.bits;
     }

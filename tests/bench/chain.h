@@ -1,9 +1,12 @@
-// A builder, then any number of restructurers, then a form: BUILDER[+METHOD[:ITERATIONS]]...[@FORM]
+// A builder, then any number of restructurers, then a form:
+// BUILDER[+METHOD[:ITERATIONS]]...[@FORM[:KEY=VALUE]...]
 #pragma once
+
+#include <optional>
 
 #include "bench_common.h"
 #include "build/builders.h"
-#include "compress/forms.h"
+#include "chain_form.h"
 #include "restructure/restructurers.h"
 
 namespace bvhio::bench {
@@ -11,9 +14,9 @@ namespace bvhio::bench {
 class Chain {
   public:
     /// Throws Error{usage} for names that no table has.
-    explicit Chain(const std::string& name) : name_(name), form_(&forms()[0]) {
+    explicit Chain(const std::string& name) : name_(name) {
         const size_t at = std::min(name.find('@'), name.size());
-        if (at < name.size()) form_ = &choose(forms(), "form", name.substr(at + 1));
+        if (at < name.size()) form_ = formOfChain(name.substr(at + 1));
         const std::string text = name.substr(0, at);
         size_t end = std::min(text.find('+'), text.size());
         builder_ = &choose(builders(), "builder", text.substr(0, end));
@@ -46,7 +49,11 @@ class Chain {
         return bvh;
     }
 
-    EncodedBvh encode(const Scene& scene, const Bvh& bvh) const { return form_->function(scene, bvh, {}); }
+    bool namesForm() const { return form_.has_value(); }
+    EncodedBvh encode(const Scene& scene, const Bvh& bvh) const {
+        return form_ ? form_->form->function(scene, bvh, form_->options)
+                     : forms()[0].function(scene, bvh, {});
+    }
 
   private:
     struct Step {
@@ -56,7 +63,7 @@ class Chain {
     std::string name_;
     const Builder* builder_;
     std::vector<Step> steps_;
-    const FormChoice* form_;
+    std::optional<ChainForm> form_;
 };
 
 }  // namespace bvhio::bench

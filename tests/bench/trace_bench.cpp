@@ -3,11 +3,16 @@
 // taken, so a busy machine hurts all alike. Hits must agree with Embree's except where t differs by less than
 // 1e-5 of itself.
 //
-//     trace_bench [--rounds N] [--resolution N] [--intersection-cost C] [--chain
-//     BUILDER[+METHOD[:ITERATIONS]][@FORM]]...
-//                 SCENE...
+//     trace_bench [--rounds N] [--resolution N] [--intersection-cost C]
+//                 [--chain BUILDER[+METHOD[:ITERATIONS]]...[@FORM[:KEY=VALUE]...]]... SCENE...
 //
-// Without --chain: the default builder's tree. `to first` is the rate over that of the first chain.
+// Without --chain: the default builder's tree. `to first` is the rate over that of the first chain. Where a
+// chain names a form, a line says how fast it encodes: in million nodes of the given tree a second, and in
+// microseconds for each triangle. Parameters are the options of bvh-compress:
+//
+//     trace_bench --chain binned --chain binned@quantized --chain binned@quantized:record-bytes=8 SCENE...
+//     trace_bench --chain binned@mvh:mvh-build=paper --chain binned@mvh SCENE...
+//
 // The trees are built with an intersection cost of 0.25 unless told otherwise: four triangles are tested at a
 // time, so leaves of up to four cost little more than leaves of one. The default of bvh-build, 1, is the
 // field's convention, which costs are compared by.
@@ -76,17 +81,47 @@ struct Summary {
     double logRatio = 0, logToFirst = 0, worst = 1e9;
 };
 
+/// Rates of encoding over all scenes.
+struct EncodeSummary {
+    double logNodes = 0, leastNodes = 1e300, mostMicroseconds = 0;
+};
+
 /// A chain's tree in one scene.
 struct Contestant {
+    Bvh tree;
     EncodedBvh bvh;
     Tracer tracer;
     std::vector<Hit> hits;
-    std::vector<double> seconds;
+    std::vector<double> seconds, encodeSeconds;
 
     Contestant(const Chain& chain, const Scene& scene, const SahCosts& costs)
-        : bvh(chain.encode(scene, chain.restructure(scene, chain.build(scene, costs), costs))),
+        : tree(chain.restructure(scene, chain.build(scene, costs), costs)),
+          bvh(chain.encode(scene, tree)),
           tracer(scene, bvh) {}
 };
+
+/// Encodes each chain's tree again and again, those of chains that name a form in turn.
+void measureEncoding(const std::vector<Chain>& chains, const Scene& scene,
+                     std::vector<std::unique_ptr<Contestant>>& contestants, int rounds) {
+    for (int round = 0; round < rounds; ++round)
+        for (size_t i = 0; i < chains.size(); ++i)
+            if (chains[i].namesForm())
+                contestants[i]->encodeSeconds.push_back(
+                    timeOf([&] { chains[i].encode(scene, contestants[i]->tree); }).processor);
+}
+
+void printEncoding(const std::string& sceneName, const Scene& scene, const Chain& chain, int width,
+                   const Contestant& contestant, EncodeSummary& summary) {
+    const double seconds = median(contestant.encodeSeconds);
+    const double nodes = double(contestant.tree.nodes.size() - 1) * 1e-6 / seconds;
+    const double microseconds = seconds * 1e6 / double(scene.triangles.size());
+    std::printf("%-22s %-8s %-*s %9.2f M nodes/s %9.3f us/triangle\n", sceneName.c_str(), "encode", width,
+                chain.name().c_str(), nodes, microseconds);
+    std::fflush(stdout);
+    summary.logNodes += std::log(nodes);
+    summary.leastNodes = std::min(summary.leastNodes, nodes);
+    summary.mostMicroseconds = std::max(summary.mostMicroseconds, microseconds);
+}
 
 void run(const Options& options, const std::vector<Chain>& chains) {
     const ThreadLimit oneThread(1);
@@ -95,13 +130,20 @@ void run(const Options& options, const std::vector<Chain>& chains) {
     costs.intersection = options.intersectionCost;
     std::vector<Summary> summaries[std::size(kRaySets)];
     for (auto& list : summaries) list.resize(chains.size());
-    std::printf("%-22s %-8s %-26s %9s %11s %11s %7s %9s   %s\n", "scene", "rays", "chain", "count",
+    std::vector<EncodeSummary> encodeSummaries(chains.size());
+    int width = 0;  // of the longest chain's name
+    for (const Chain& chain : chains) width = std::max(width, int(chain.name().size()));
+    std::printf("%-22s %-8s %-*s %9s %11s %11s %7s %9s   %s\n", "scene", "rays", width, "chain", "count",
                 "ours Mr/s", "Embree Mr/s", "ratio", "to first", "other t / hit only by us / only by Embree");
     for (const auto& path : options.scenes) {
         const Scene scene = loadScene(path);
         std::vector<std::unique_ptr<Contestant>> contestants;
         for (const Chain& chain : chains)
             contestants.push_back(std::make_unique<Contestant>(chain, scene, costs));
+        measureEncoding(chains, scene, contestants, options.rounds);
+        for (size_t i = 0; i < chains.size(); ++i)
+            if (chains[i].namesForm())
+                printEncoding(path.filename(), scene, chains[i], width, *contestants[i], encodeSummaries[i]);
         EmbreeScene embree(device, scene, RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_ROBUST);
         embree.commit();
         const ClosestHits closestHits = [&](std::span<const Ray> rays) {
@@ -135,21 +177,26 @@ void run(const Options& options, const std::vector<Chain>& chains) {
                 summary.worst = std::min(summary.worst, ratio);
                 const Agreement agreement = compareHits(contestants[i]->hits, theirs);
                 const double millions = double(rays.size()) * 1e-6;
-                std::printf("%-22s %-8s %-26s %9zu %11.3f %11.3f %7.3f %9.3f   %zu / %zu / %zu\n",
-                            path.filename().c_str(), kRaySets[set], chains[i].name().c_str(), rays.size(),
-                            millions / seconds, millions / median(theirSeconds), ratio, toFirst,
+                std::printf("%-22s %-8s %-*s %9zu %11.3f %11.3f %7.3f %9.3f   %zu / %zu / %zu\n",
+                            path.filename().c_str(), kRaySets[set], width, chains[i].name().c_str(),
+                            rays.size(), millions / seconds, millions / median(theirSeconds), ratio, toFirst,
                             agreement.differentT, agreement.onlyOurs, agreement.onlyEmbree);
                 std::fflush(stdout);
             }
         }
     }
     const auto count = double(options.scenes.size());
+    for (size_t i = 0; i < chains.size(); ++i)
+        if (const EncodeSummary& summary = encodeSummaries[i]; chains[i].namesForm())
+            std::printf("%-8s %-*s geometric mean %.2f M nodes/s, least %.2f; at most %.3f us/triangle\n",
+                        "encode", width, chains[i].name().c_str(), std::exp(summary.logNodes / count),
+                        summary.leastNodes, summary.mostMicroseconds);
     for (size_t set = 0; set < std::size(kRaySets); ++set)
         for (size_t i = 0; i < chains.size(); ++i) {
             const Summary& summary = summaries[set][i];
-            std::printf("%-8s %-26s geometric mean of ratios %.3f, worst %.3f; to first %.3f\n",
-                        kRaySets[set], chains[i].name().c_str(), std::exp(summary.logRatio / count),
-                        summary.worst, std::exp(summary.logToFirst / count));
+            std::printf("%-8s %-*s geometric mean of ratios %.3f, worst %.3f; to first %.3f\n", kRaySets[set],
+                        width, chains[i].name().c_str(), std::exp(summary.logRatio / count), summary.worst,
+                        std::exp(summary.logToFirst / count));
         }
 }
 
@@ -173,7 +220,7 @@ int main(int argc, char** argv) {
     if (options.scenes.empty()) {
         std::fprintf(stderr,
                      "trace_bench [--rounds N] [--resolution N] [--intersection-cost C] "
-                     "[--chain BUILDER[+METHOD[:ITERATIONS]][@FORM]]... SCENE...\n");
+                     "[--chain BUILDER[+METHOD[:ITERATIONS]]...[@FORM[:KEY=VALUE]...]]... SCENE...\n");
         return 1;
     }
     if (options.chains.empty()) options.chains.emplace_back(builders()[0].name);

@@ -6,6 +6,7 @@
 #include "common/log.h"
 #include "common/pass.h"
 #include "common/run_tool.h"
+#include "common/useless_options.h"
 #include "file/form_chunks.h"
 #include "scene/import.h"
 #include "scene/moved_scene.h"
@@ -78,7 +79,7 @@ ExitCode build(CommandLine& line) {
     BuildOptions options;
     std::string builder(builders()[0].name), degenerate(kOnDegenerate[0].name);
     line.choice("--builder", builder, namedValues(builders()), "how the tree is built");
-    line.number("--bins", options.bins, 0, 256, "bins an axis, for builders that bin; 0: the builder's own");
+    line.number("--bins", options.bins, 0, 256, "bins an axis, for binned and spatial; 0: the builder's own");
     line.number("--max-leaf-size", options.maxLeafSize, 1, kMaxLeafSize, "most triangles in a leaf");
     line.number("--split-budget", options.splitBudget, 0, kMaxSplitBudget,
                 "for spatial: most references that cutting adds, per triangle");
@@ -105,11 +106,12 @@ ExitCode build(CommandLine& line) {
         return ExitCode::done;
     }
 
+    const Builder& chosen = choose(builders(), "builder", builder);
+    refuseUseless(line, "builder", chosen, {{"--bins", kUsesBins}, {"--split-budget", kUsesSplitBudget}});
     pass.stages().begin("import");
     Scene scene = import(pass.input(), {onDegenerate(degenerate)}, twoLevel);
     pass.stages().begin("build");
     options.progress = &pass.stages().progress();
-    const Builder& chosen = choose(builders(), "builder", builder);
     EncodedBvh bvh = twoLevel ? EncodedBvh(TwoLevelForm::encodeInstances(
                                     scene, buildInstanced(scene, chosen, options), exactLevels()))
                               : EncodedBvh(AabbForm(chosen.function(scene, options)));

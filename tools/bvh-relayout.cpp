@@ -1,6 +1,7 @@
 // bvh-relayout: orders a tree's nodes in memory; its cost stays.
 #include "common/pass.h"
 #include "common/run_tool.h"
+#include "common/useless_options.h"
 #include "relayout/clusters.h"
 #include "relayout/layouts.h"
 
@@ -40,7 +41,13 @@ class LayoutChoice {
     /// Error{usage} for what it has no use for.
     const Layout& choose(LayoutOptions& options) {
         const Layout& layout = bvhio::choose(layouts(), "layout", name_);
-        refuseUseless(layout);
+        refuseUseless(line_, "layout", layout,
+                      {{"--probability", kUsesWeights},
+                       {"--line-size", kUsesLines | kUsesLineSize},
+                       {"--record-bytes", kUsesLines},
+                       {"--threshold", kUsesThreshold},
+                       {"--treelet-size", kUsesTreeletSize},
+                       {"--pointer-bits", kUsesPointerBits}});
         if (probability_.empty() && (layout.function.uses & kUsesWeights) != 0)
             probability_ = kProbabilities[0].name;
         if (!byVisits() && smoothing_ >= 0)
@@ -55,17 +62,6 @@ class LayoutChoice {
     }
 
   private:
-    void refuseUseless(const Layout& layout) const {
-        static constexpr std::pair<std::string_view, uint32_t> kUses[] = {
-            {"--probability", kUsesWeights},      {"--line-size", kUsesLines | kUsesLineSize},
-            {"--record-bytes", kUsesLines},       {"--threshold", kUsesThreshold},
-            {"--treelet-size", kUsesTreeletSize}, {"--pointer-bits", kUsesPointerBits}};
-        for (const auto& [name, uses] : kUses)
-            if ((layout.function.uses & uses) == 0 && line_.isGiven(name))
-                throw Error(ErrorKind::usage, std::string(name) + ": layout " + std::string(layout.name) +
-                                                  " has no use for it: leave it out");
-    }
-
     template <class T>
     static void take(const Layout& layout, uint32_t use, T& given, T& option, T none) {
         if ((layout.function.uses & use) == 0) return;

@@ -1,6 +1,7 @@
 // bvh-restructure: lowers a tree's cost by changing which nodes it has.
 #include "common/pass.h"
 #include "common/run_tool.h"
+#include "common/useless_options.h"
 #include "compress/exact_boxes.h"
 #include "restructure/restructurers.h"
 
@@ -38,13 +39,22 @@ ExitCode restructure(CommandLine& line) {
     line.number("--max-leaf-size", options.maxLeafSize, 0, kMaxLeafSize,
                 "most triangles of a leaf that forms; 0: as in INPUT, and at least 4");
     Pass pass(line, "INPUT", "the container; - or nothing: standard input");
+    const Restructurer& chosen = choose(restructurers(), "method", method);
+    refuseUseless(line, "method", chosen,
+                  {{"--iterations", kUsesIterations},
+                   {"--treelet-size", kUsesTreelets},
+                   {"--gamma", kUsesTreelets},
+                   {"--collapse", kUsesLeaves},
+                   {"--max-leaf-size", kUsesLeaves}});
+    if (!options.collapse && line.isGiven("--max-leaf-size"))
+        throw Error(ErrorKind::usage,
+                    "--max-leaf-size: with --no-collapse no leaves form: leave one of them out");
 
     BvhxFile file = pass.read();
     pass.stages().begin("restructure");
     options.costs = file.costs;
     options.recordCosts = pass.reports();
     options.progress = &pass.stages().progress();
-    const auto& chosen = choose(restructurers(), "method", method);
     const bool isExact = std::holds_alternative<AabbForm>(file.bvh);
     Report iterations = Report::array();
     double seconds = 0, bytesPerNode = 0;

@@ -11,13 +11,22 @@ namespace bvhio {
 
 std::span<const Builder> builders() {
     static constexpr Builder kTable[] = {
-        {"binned", "binned SAH on all threads: fast, and good trees", buildBinned},
-        {"sweep", "SAH over all planes between centroids: twice binned's time, mostly better trees",
-         buildSweep},
-        {"spatial", "SAH that may cut triangles between nodes: better trees, more references", buildSpatial},
-        {"lbvh", "order along the Morton curve: built several times faster, worse trees", buildLbvh},
-        {"ploc", "joins near clusters of triangles from the leaves up: often better than binned", buildPloc},
-        {"median", "object median along the longest axis; no SAH, the plainest tree", buildMedian},
+        {"binned", "binned SAH on all threads: fast, and good trees", {buildBinned, kUsesBins}},
+        {"sweep",
+         "SAH over all planes between centroids: twice binned's time, mostly better trees",
+         {buildSweep, kUsesNothing}},
+        {"spatial",
+         "SAH that may cut triangles between nodes: better trees, more references",
+         {buildSpatial, kUsesBins | kUsesSplitBudget}},
+        {"lbvh",
+         "order along the Morton curve: built several times faster, worse trees",
+         {buildLbvh, kUsesNothing}},
+        {"ploc",
+         "joins near clusters of triangles from the leaves up: often better than binned",
+         {buildPloc, kUsesNothing}},
+        {"median",
+         "object median along the longest axis; no SAH, the plainest tree",
+         {buildMedian, kUsesNothing}},
     };
     return kTable;
 }

@@ -11,6 +11,12 @@
 
 namespace bvhio {
 
+/// The options that not every builder has a use for.
+enum BuildUses : uint32_t {
+    kUsesBins = 1,
+    kUsesSplitBudget = 2,
+};
+
 struct BuildOptions {
     SahCosts costs;
     uint32_t bins = 0;  // per axis, for binned builders; 0 = the builder's own default
@@ -21,7 +27,7 @@ struct BuildOptions {
 
 /// A builder returns a tree that keeps every invariant of Bvh, whose bytes depend on the scene and the
 /// options alone: not on the number of threads, the compiler or the processor.
-using Builder = Choice<Bvh (*)(const Scene&, const BuildOptions&)>;
+using Builder = Choice<Method<Bvh(const Scene&, const BuildOptions&)>>;
 
 /// All builders, the default first.
 std::span<const Builder> builders();

@@ -15,7 +15,7 @@ InstancedBvh buildInstanced(const Scene& scene, const Builder& builder, const Bu
         if (options.progress) options.progress->add(mesh.triangleCount);
     }
     own.maxLeafSize = 1;
-    const auto build = builder.function == buildSpatial ? buildBinned : builder.function;
+    const auto build = builder.function.run == buildSpatial ? buildBinned : builder.function.run;
     result.top = build(sceneOfInstances(scene), own);
     return result;
 }

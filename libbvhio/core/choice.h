@@ -1,6 +1,7 @@
 // Tables of named choices: builders, restructurers, layouts, ray sets and codecs are rows of one.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,19 @@ struct Choice {
     std::string_view summary;
     Function function;
 };
+
+/// What a row runs, and the options that it has a use for, as bits that its table names: tools refuse others.
+template <class Signature>
+struct Method;
+template <class Result, class... Arguments>
+struct Method<Result(Arguments...)> {
+    Result (*run)(Arguments...);
+    uint32_t uses;
+
+    Result operator()(Arguments... arguments) const { return run(arguments...); }
+};
+
+inline constexpr uint32_t kUsesNothing = 0;
 
 /// The names of a table's rows, as "a, b or c".
 template <class Function>

@@ -7,9 +7,8 @@
 
 namespace bvhio {
 
-/// The options that a layout may have a use for, as bits.
+/// The options that a layout may have a use for.
 enum LayoutUses : uint32_t {
-    kUsesNothing = 0,
     kUsesWeights = 1,
     kUsesLines = 2,  // lineSize and recordBytes
     kUsesThreshold = 4,
@@ -38,17 +37,9 @@ struct LayoutResult {
     SlotMap slots{};
 };
 
-/// What a layout does, and the options that it has a use for.
-struct LayoutMethod {
-    LayoutResult (*run)(const Bvh&, const LayoutOptions&);
-    uint32_t uses;
-
-    LayoutResult operator()(const Bvh& bvh, const LayoutOptions& options) const { return run(bvh, options); }
-};
-
 /// A layout's order depends on the tree, its weights and the options alone: not on the order its nodes had
 /// before, so applying a layout twice is applying it once.
-using Layout = Choice<LayoutMethod>;
+using Layout = Choice<Method<LayoutResult(const Bvh&, const LayoutOptions&)>>;
 
 /// All layouts, the default first.
 std::span<const Layout> layouts();

@@ -9,10 +9,16 @@ namespace bvhio {
 
 std::span<const Restructurer> restructurers() {
     static constexpr Restructurer kTable[] = {
-        {"reinsertion", "move subtrees to where they cost least: the best cost", restructureReinsertion},
-        {"atr", "rebuild treelets by agglomeration: about as good as tr, faster", restructureAtr},
-        {"tr", "rebuild treelets, each at its optimum", restructureTr},
-        {"none", "leave the tree as it is", restructureNone},
+        {"reinsertion",
+         "move subtrees to where they cost least: the best cost",
+         {restructureReinsertion, kUsesIterations | kUsesLeaves}},
+        {"atr",
+         "rebuild treelets by agglomeration: about as good as tr, faster",
+         {restructureAtr, kUsesIterations | kUsesTreelets | kUsesLeaves}},
+        {"tr",
+         "rebuild treelets, each at its optimum",
+         {restructureTr, kUsesIterations | kUsesTreelets | kUsesLeaves}},
+        {"none", "leave the tree as it is", {restructureNone, kUsesNothing}},
     };
     return kTable;
 }

@@ -14,6 +14,13 @@ namespace bvhio {
 /// Most leaves of a treelet.
 inline constexpr uint32_t kMaxTreeletSize = 30;
 
+/// The options that a restructurer may have a use for.
+enum RestructureUses : uint32_t {
+    kUsesIterations = 1,
+    kUsesTreelets = 2,  // treeletSize and gamma
+    kUsesLeaves = 4,    // collapse and maxLeafSize
+};
+
 struct RestructureOptions {
     SahCosts costs;
     uint32_t treeletSize = 0;  // leaves of a treelet, for methods that have treelets; 0 = the method's own
@@ -42,7 +49,7 @@ struct Restructured {
 /// A restructurer returns a tree over the same triangles that keeps every invariant of Bvh and never costs
 /// more, whose bytes depend on the tree and the options alone: not on the number of threads, the compiler or
 /// the processor. Throws Error{usage} for options out of its range.
-using Restructurer = Choice<Restructured (*)(const Scene&, const Bvh&, const RestructureOptions&)>;
+using Restructurer = Choice<Method<Restructured(const Scene&, const Bvh&, const RestructureOptions&)>>;
 
 /// All restructurers, the default first.
 std::span<const Restructurer> restructurers();

@@ -79,7 +79,7 @@ def make(chain, scene, work):
     run_pass("bvh-build", scene, "--builder", builder, "--traversal-cost", 1, "--intersection-cost", 1)
     for step in steps:
         method, _, iterations = step.partition(":")
-        run_pass("bvh-restructure", tree, "--method", method, "--iterations", iterations or 0)
+        run_pass("bvh-restructure", tree, "--method", method, *(("--iterations", iterations) if iterations else ()))
     return tree, seconds
 
 

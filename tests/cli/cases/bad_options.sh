@@ -15,7 +15,14 @@ code bvh-build cube.obj -q -v
 code bvh-build cube.obj --report -
 code bvh-build cube.obj -j -1
 code bvh-build cube.obj -j many
+code bvh-build cube.obj --builder sweep --bins 8
+code bvh-build cube.obj --split-budget 0.1
 code bvh-restructure cube.bvhx --method best
+code bvh-restructure cube.bvhx --treelet-size 5
+code bvh-restructure cube.bvhx --method reinsertion --gamma 0
+code bvh-restructure cube.bvhx --method none --iterations 3
+code bvh-restructure cube.bvhx --method none --no-collapse
+code bvh-restructure cube.bvhx --method tr --no-collapse --max-leaf-size 2
 code bvh-relayout cube.bvhx --layout dsf
 code bvh-relayout cube.bvhx --layout bfs --threshold 0.5
 code bvh-compress cube.bvhx --codec zsdt

@@ -18,6 +18,7 @@
 #include "build/merged_tree.h"
 #include "build/morton.h"
 #include "build/ploc_search.h"
+#include "core/depth.h"
 #include "core/parallel.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -204,13 +205,12 @@ class PlocBuild {
     void joinAs(const Bvh& split, const Buffer<Reference>& lower) {
         const size_t slots = split.nodes.size();
         std::vector<std::vector<uint32_t>> levels;  // inner nodes
-        std::vector<uint8_t> depths(slots);
+        const std::vector<uint32_t> depths = depthsOfPairs(split);
         for (uint32_t i = 0; i < slots; ++i) {
             const Node& node = split.nodes[i];
             if (i == 1 || node.isLeaf()) continue;
-            depths[node.left()] = depths[node.right()] = uint8_t(depths[i] + 1);
-            if (levels.size() <= depths[i]) levels.resize(depths[i] + size_t(1));
-            levels[depths[i]].push_back(i);
+            if (levels.size() <= depths[i / 2]) levels.resize(depths[i / 2] + size_t(1));
+            levels[depths[i / 2]].push_back(i);
         }
         Buffer<Reference> above(slots);
         const auto clusterOf = [&](uint32_t node) -> const Reference& {

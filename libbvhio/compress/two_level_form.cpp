@@ -6,6 +6,7 @@
 #include "compress/divide_leaves.h"
 #include "compress/forest.h"
 #include "core/buffer.h"
+#include "core/depth.h"
 #include "core/error.h"
 
 namespace bvhio {
@@ -97,15 +98,10 @@ Bvh withRuns(const Bvh& top, const Runs& runs) {
 }
 
 void refuseTooDeep(const Bvh& bvh) {
-    std::vector<uint8_t> depths(bvh.nodes.size() / 2);
-    for (size_t i = 0; i < bvh.nodes.size(); ++i) {
-        if (i == 1 || bvh.nodes[i].isLeaf()) continue;
-        if (depths[i / 2] >= kMaxDepth)
-            throw Error(ErrorKind::unsupported,
-                        "the tree's lowest leaves lie too deep to be BLASes: use another --form or a larger "
-                        "--blas-size");
-        depths[bvh.nodes[i].left() / 2] = uint8_t(depths[i / 2] + 1);
-    }
+    if (depthOf(bvh) > kMaxDepth)
+        throw Error(ErrorKind::unsupported,
+                    "the tree's lowest leaves lie too deep to be BLASes: use another --form or a larger "
+                    "--blas-size");
 }
 
 /// A mesh's tree as a BLAS: primitives count through the scene, the root has the mesh's box, and no other box

@@ -1,24 +1,9 @@
 #include "file/tree_chunks.h"
 
-#include <algorithm>
-
 #include "core/validate.h"
 #include "file/scene_chunks.h"
 
 namespace bvhio {
-
-uint32_t depthOf(const Bvh& bvh) {
-    std::vector<uint8_t> depths(bvh.nodes.size() / 2);
-    uint8_t deepest = 0;
-    for (size_t i = 0; i < bvh.nodes.size(); ++i) {
-        const Node& node = bvh.nodes[i];
-        if (i == 1 || node.isLeaf()) continue;
-        const auto depth = uint8_t(depths[i / 2] + 1);
-        depths[node.left() / 2] = depth;
-        deepest = std::max(deepest, depth);
-    }
-    return deepest;
-}
 
 void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
                const std::function<NodesPlace(uint64_t node)>& placeOf) {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/bytes.h"
+#include "core/depth.h"
 #include "file/chunks.h"
 
 namespace bvhio {
@@ -16,9 +17,6 @@ struct TreeParameters {
     SahCosts costs;
     uint32_t depth = 0;
 };
-
-/// Edges from the root to the deepest leaf of a valid tree.
-uint32_t depthOf(const Bvh& bvh);
 
 /// Checks a tree that was read, boxes as its form reconstructs them, against every rule of core/bvh.h. Its
 /// nodes are records of `nodeSize` bytes from `nodesOffset` on, in a chunk of this type.

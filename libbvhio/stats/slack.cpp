@@ -1,6 +1,7 @@
 #include "stats/slack.h"
 
 #include "compress/exact_boxes.h"
+#include "core/depth.h"
 
 namespace bvhio {
 namespace {
@@ -33,11 +34,10 @@ SlackStats slackStats(const Scene& scene, const Bvh& bvh, const SahCosts& costs)
     SlackStats stats;
     stats.sahCost = sahCost(bvh, costs);
     stats.exactSahCost = sahCost(exact, costs);
-    std::vector<uint32_t> depths(bvh.nodes.size() / 2);  // by pair
+    const std::vector<uint32_t> depths = depthsOfPairs(bvh);
     for (size_t i = 0; i < bvh.nodes.size(); ++i) {
         if (i == 1) continue;  // the unused slot beside the root
         const uint32_t depth = depths[i / 2];
-        if (!bvh.nodes[i].isLeaf()) depths[bvh.nodes[i].left() / 2] = depth + 1;
         if (depth >= stats.levels.size()) stats.levels.resize(depth + 1);
         const double area = halfArea(bvh.nodes[i].bounds), exactArea = halfArea(exact.nodes[i].bounds);
         stats.levels[depth].add(area, exactArea);

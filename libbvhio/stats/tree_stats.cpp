@@ -4,6 +4,8 @@
 #include <charconv>
 #include <string>
 
+#include "core/depth.h"
+
 namespace bvhio {
 namespace {
 
@@ -55,8 +57,8 @@ TreeStats treeStats(const Bvh& bvh, const SahCosts& costs) {
     stats.sahCost = sahCost(bvh, costs);
 
     const double rootArea = halfArea(bvh.nodes[0].bounds);
-    double innerArea = 0, sharedArea = 0, depths = 0;
-    std::vector<uint32_t> depthOf(bvh.nodes.size());
+    double innerArea = 0, sharedArea = 0, sumOfDepths = 0;
+    const std::vector<uint32_t> depths = depthsOfPairs(bvh);
     for (size_t i = 0; i < bvh.nodes.size(); ++i) {
         if (i == 1) continue;  // the unused slot beside the root
         const Node& node = bvh.nodes[i];
@@ -66,19 +68,18 @@ TreeStats treeStats(const Bvh& bvh, const SahCosts& costs) {
             ++stats.leaves;
             stats.expectedLeaves += probability;
             stats.expectedTriangles += probability * node.primitiveCount;
-            depths += depthOf[i];
-            count(stats.leafDepths, depthOf[i]);
+            sumOfDepths += depths[i / 2];
+            count(stats.leafDepths, depths[i / 2]);
             count(stats.leafSizes, node.primitiveCount);
         } else {
             ++stats.innerNodes;
             stats.expectedInnerNodes += probability;
-            depthOf[node.left()] = depthOf[node.right()] = depthOf[i] + 1;
             innerArea += area;
             sharedArea += sharedHalfArea(bvh.nodes[node.left()].bounds, bvh.nodes[node.right()].bounds);
         }
     }
     stats.maxDepth = uint32_t(stats.leafDepths.size()) - 1;
-    stats.averageLeafDepth = depths / double(stats.leaves);
+    stats.averageLeafDepth = sumOfDepths / double(stats.leaves);
     stats.childOverlap = innerArea > 0 ? sharedArea / innerArea : 0;
     return stats;
 }

@@ -10,6 +10,7 @@
 
 #include "common/expect_valid.h"
 #include "common/test_scenes.h"
+#include "core/depth.h"
 #include "core/parallel.h"
 
 namespace bvhio {
@@ -98,14 +99,7 @@ TEST_P(LargeScenes, withAMillionCoincidentCentroidsAreHalvedQuickly) {
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
     test::expectValid(scene, bvh, 4);
     // Halving 10^6 down to leaves of 4 takes 18 levels.
-    uint32_t depth = 0;
-    std::vector<uint32_t> depths(bvh.nodes.size(), 0);
-    for (uint32_t i = 0; i < bvh.nodes.size(); ++i) {
-        if (i == 1 || bvh.nodes[i].isLeaf()) continue;
-        depths[bvh.nodes[i].left()] = depths[bvh.nodes[i].right()] = depths[i] + 1;
-        depth = std::max(depth, depths[i] + 1);
-    }
-    EXPECT_LE(depth, 22u);
+    EXPECT_LE(depthOf(bvh), 22u);
 }
 
 // Object medians ignore areas: whoever minds them must do better on surfaces.

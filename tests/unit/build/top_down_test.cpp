@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "common/test_scenes.h"
+#include "core/depth.h"
 
 namespace bvhio {
 namespace {
@@ -15,18 +16,6 @@ Range wholeRange(const Scene& scene, Buffer<Reference> (&sides)[2]) {
     range.count = range.capacity = uint32_t(scene.triangles.size());
     sides[1] = Buffer<Reference>(range.count);
     return range;
-}
-
-uint32_t depthOf(const Bvh& bvh) {
-    std::vector<uint32_t> depths(bvh.nodes.size(), 0);
-    uint32_t deepest = 0;
-    for (uint32_t i = 0; i < bvh.nodes.size(); ++i) {
-        if (i == 1) continue;
-        deepest = std::max(deepest, depths[i]);
-        if (!bvh.nodes[i].isLeaf())
-            depths[bvh.nodes[i].left()] = depths[bvh.nodes[i].right()] = depths[i] + 1;
-    }
-    return deepest;
 }
 
 /// The worst splitter: the first reference against all others.

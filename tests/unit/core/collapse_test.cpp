@@ -8,6 +8,7 @@
 #include "common/expect_valid.h"
 #include "common/shuffled_tree.h"
 #include "common/test_scenes.h"
+#include "core/depth.h"
 #include "core/limit_depth.h"
 
 namespace bvhio {
@@ -25,14 +26,6 @@ std::vector<Node> chain(uint32_t leaves) {
     }
     nodes[2 * leaves - 1] = {box(leaves - 1), leaves - 1, 1};
     return nodes;
-}
-
-uint32_t depthOf(const Bvh& bvh) {
-    std::vector<uint32_t> depths(bvh.nodes.size(), 0);
-    for (uint32_t i = 0; i < bvh.nodes.size(); ++i)
-        if (i != 1 && !bvh.nodes[i].isLeaf())
-            depths[bvh.nodes[i].left()] = depths[bvh.nodes[i].right()] = depths[i] + 1;
-    return *std::max_element(depths.begin(), depths.end());
 }
 
 std::vector<uint32_t> identity(uint32_t count) {

@@ -49,8 +49,8 @@ ChildReferences::ChildReferences(const Bvh& bvh) {
 
 void RecordArray::set(size_t i, const Node& left, const Node& right, const ChildReferences& references) {
     Record& record = records_[i];
-    setPlanes(record.left, left.bounds);
-    setPlanes(record.right, right.bounds);
+    setPlanes(record.boxes[0], left.bounds);
+    setPlanes(record.boxes[1], right.bounds);
     record.children[0] = references.of(left);
     record.children[1] = references.of(right);
     record.unused[0] = record.unused[1] = 0;

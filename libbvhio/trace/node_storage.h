@@ -48,7 +48,7 @@ constexpr size_t behindArray(size_t offset, size_t bytes) {
 class RecordArray {
   public:
     struct alignas(64) Record {
-        float left[6], right[6];  // min.xyz, max.xyz
+        float boxes[2][6];  // min.xyz, max.xyz
         uint32_t children[2];
         uint32_t unused[2];
     };
@@ -64,11 +64,8 @@ class RecordArray {
     BVHIO_INLINE void tell(size_t i, Metrics& metrics) const {
         metrics.recordFetched(i * sizeof(Record), sizeof(Record));
     }
-    BVHIO_INLINE RayInterval clipLeft(size_t i, const PreparedRay& ray, float tLimit) const {
-        return clipToPlanes(ray, records_[i].left, tLimit);
-    }
-    BVHIO_INLINE RayInterval clipRight(size_t i, const PreparedRay& ray, float tLimit) const {
-        return clipToPlanes(ray, records_[i].right, tLimit);
+    BVHIO_INLINE RayInterval clip(size_t i, int which, const PreparedRay& ray, float tLimit) const {
+        return clipToPlanes(ray, records_[i].boxes[which], tLimit);
     }
     BVHIO_INLINE uint32_t child(size_t i, int which) const { return records_[i].children[which]; }
 
@@ -100,11 +97,8 @@ class ArraysOf32And24 {
         metrics.recordFetched(i * sizeof(Left), sizeof(Left));
         metrics.recordFetched(rightAt_ + i * sizeof(Right), sizeof(Right));
     }
-    BVHIO_INLINE RayInterval clipLeft(size_t i, const PreparedRay& ray, float tLimit) const {
-        return clipToPlanes(ray, left_[i].planes, tLimit);
-    }
-    BVHIO_INLINE RayInterval clipRight(size_t i, const PreparedRay& ray, float tLimit) const {
-        return clipToPlanes(ray, right_[i].planes, tLimit);
+    BVHIO_INLINE RayInterval clip(size_t i, int which, const PreparedRay& ray, float tLimit) const {
+        return clipToPlanes(ray, which == 0 ? left_[i].planes : right_[i].planes, tLimit);
     }
     BVHIO_INLINE uint32_t child(size_t i, int which) const { return left_[i].children[which]; }
 
@@ -137,11 +131,9 @@ class ArraysOf16And8 {
             metrics.recordFetched((array * arrayFloats_ + 4 * i) * sizeof(float), 4 * sizeof(float));
         metrics.recordFetched(childrenAt() + i * sizeof(Children), sizeof(Children));
     }
-    BVHIO_INLINE RayInterval clipLeft(size_t i, const Ray& ray, float tLimit) const {
-        return clipToPlanes(ray.toLeft, planes_.data() + 4 * i, tLimit);
-    }
-    BVHIO_INLINE RayInterval clipRight(size_t i, const Ray& ray, float tLimit) const {
-        return clipToPlanes(ray.toRight, planes_.data() + arrayFloats_ + 4 * i, tLimit);
+    BVHIO_INLINE RayInterval clip(size_t i, int which, const Ray& ray, float tLimit) const {
+        const float* box = planes_.data() + (which == 0 ? 0 : arrayFloats_) + 4 * i;
+        return clipToPlanes(which == 0 ? ray.toLeft : ray.toRight, box, tLimit);
     }
     BVHIO_INLINE uint32_t child(size_t i, int which) const { return children_[i].references[which]; }
 
@@ -202,8 +194,8 @@ class NodesIn {
         const size_t i = from.cursor;
         arrays_.tell(i, metrics);
         metrics.boxesTested(2, AabbForm::kBoxTestCost);
-        const RayInterval inLeft = arrays_.clipLeft(i, ray, tLimit);
-        const RayInterval inRight = arrays_.clipRight(i, ray, tLimit);
+        const RayInterval inLeft = arrays_.clip(i, 0, ray, tLimit);
+        const RayInterval inRight = arrays_.clip(i, 1, ray, tLimit);
         if (inLeft.isEmpty()) {
             if (inRight.isEmpty()) return 0;
             children[0] = {arrays_.child(i, 1), inRight.enter};

@@ -8,130 +8,50 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kNoItem = ClusterItem::kNone;
+constexpr uint32_t kNone = TreeItem::kNone;
 
-/// Connected items in one line, parents first.
-struct LinePart {
-    std::vector<uint32_t> items;
-    uint32_t parent = kNoItem;       // the part that has the parent of its first item
-    std::vector<uint32_t> children;  // parts
-};
-
-/// The best parts by a tree knapsack: with s of its items, a line below an item costs the least that its
-/// children's shares of s - 1 do; a child outside the line costs a step there, and its own best line.
-class BestParts {
-  public:
-    BestParts(const std::vector<ClusterItem>& items, uint32_t lineSlots)
-        : items_(items),
-          stride_(lineSlots + 1),
-          cost_(items.size() * stride_),
-          share_(cost_.size()),
-          sizes_(items.size()) {
-        for (size_t i = items.size(); i-- > 0;) findCosts(uint32_t(i), lineSlots);
-        parts_.emplace_back();
-        for (size_t part = 0; part < parts_.size(); ++part) {
-            const uint32_t root = part == 0 ? 0 : roots_[part - 1];
-            fill(uint32_t(part), root, bestSize(root));
-        }
-    }
-    std::vector<LinePart> parts() && { return std::move(parts_); }
-
-  private:
-    double& cost(uint32_t item, uint32_t size) { return cost_[item * stride_ + size]; }
-    /// Of the whole line of an item: the cheapest size, the largest among equal ones.
-    uint32_t bestSize(uint32_t item) {
-        uint32_t best = 1;
-        for (uint32_t size = 2; size <= sizes_[item]; ++size)
-            if (cost(item, size) <= cost(item, best)) best = size;
-        return best;
-    }
-
-    void findCosts(uint32_t item, uint32_t lineSlots) {
-        // Column 0 of a child: it starts a line of its own. That is known when the parent is met.
-        uint32_t room[2] = {};
-        for (size_t side = 0; side < 2; ++side)
-            if (const uint32_t child = items_[item].children[side]; child != kNoItem)
-                room[side] = sizes_[child];
-        sizes_[item] = std::min(lineSlots, 1 + room[0] + room[1]);
-        for (uint32_t size = 1; size <= sizes_[item]; ++size) {
-            double best = std::numeric_limits<double>::infinity();
-            const uint32_t least = size - 1 > room[1] ? size - 1 - room[1] : 0;
-            for (uint32_t left = least; left <= std::min(size - 1, room[0]); ++left) {
-                const double sum = costOf(item, 0, left) + costOf(item, 1, size - 1 - left);
-                if (sum < best) {
-                    best = sum;
-                    share_[item * stride_ + size] = uint8_t(left);
-                }
-            }
-            cost(item, size) = best;
-        }
-        cost(item, 0) = items_[item].weight + cost(item, bestSize(item));
-    }
-    double costOf(uint32_t item, size_t side, uint32_t size) {
-        const uint32_t child = items_[item].children[side];
-        return child == kNoItem ? 0 : cost(child, size);
-    }
-
-    void fill(uint32_t part, uint32_t item, uint32_t size) {
-        parts_[part].items.push_back(item);
-        const uint32_t left = share_[item * stride_ + size];
-        const uint32_t shares[2] = {left, size - 1 - left};
-        for (size_t side = 0; side < 2; ++side) {
-            const uint32_t child = items_[item].children[side];
-            if (child == kNoItem) continue;
-            if (shares[side] > 0) {
-                fill(part, child, shares[side]);
-            } else {
-                parts_[part].children.push_back(uint32_t(parts_.size()));
-                parts_.emplace_back().parent = part;
-                roots_.push_back(child);
-            }
-        }
-    }
-
-    const std::vector<ClusterItem>& items_;
-    size_t stride_;
-    std::vector<double> cost_;
-    std::vector<uint8_t> share_;   // of the left child
-    std::vector<uint32_t> sizes_;  // the most items in a line below an item
-    std::vector<LinePart> parts_;
-    std::vector<uint32_t> roots_;  // first items of parts 1 and on
-};
-
-/// Puts parts into lines. A part may be placed once its parent is, so that items stay behind their parents.
-/// Parts that others wait for and full ones open lines, the heaviest first; what room they leave is filled
-/// from the rest: siblings first, then the longest that fits.
+/// Puts connected parts into lines. A part may be placed once its parent is, so that items stay behind their
+/// parents. Parts that others wait for and full ones open lines, the heaviest first; what room they leave is
+/// filled from the rest: siblings first, then the longest that fits. Where none does, the line ends short
+/// as long as slots may be spared, and then takes as many items as it has room for of the part that loses
+/// least so.
 class LinesOfParts {
   public:
-    LinesOfParts(const std::vector<ClusterItem>& items, const std::vector<LinePart>& parts,
-                 uint32_t lineSlots)
+    LinesOfParts(std::span<const TreeItem> items, uint32_t lineSlots, size_t spareSlots)
         : items_(items),
-          parts_(parts),
           lineSlots_(lineSlots),
+          spareSlots_(spareSlots),
+          best_(items, lineSlots),
           bySize_(lineSlots),
-          isPlaced_(parts.size()),
           first_(Lighter{*this}) {
-        makeReady(0);
-        while (true) {
-            uint32_t part = kNoItem;
-            while (part == kNoItem && !first_.empty()) {
-                if (!isPlaced_[first_.top()]) part = first_.top();
-                first_.pop();
-            }
-            if (part == kNoItem) part = longest(lineSlots - 1);
-            if (part == kNoItem) break;
+        makeReady(0, kNone);
+        for (uint32_t part = next(); part != kNone; part = next()) {
             lines_.emplace_back();
-            for (uint32_t next = part; next != kNoItem;) {
-                place(next);
-                const uint32_t room = lineSlots_ - uint32_t(lines_.back().size());
-                next = siblingOf(part, room);
-                if (next == kNoItem) next = longest(room);
+            place(part, size(part));
+            while (uint32_t room = lineSlots_ - uint32_t(lines_.back().size())) {
+                uint32_t other = siblingOf(part, room);
+                if (other == kNone) other = longest(room);
+                if (other != kNone)
+                    room = size(other);
+                else if (room > spareSlots_)
+                    other = cheapestOf(room);
+                if (other == kNone) {
+                    spareSlots_ -= std::min<size_t>(room, spareSlots_);
+                    break;
+                }
+                place(other, room);
             }
         }
     }
     ClusterLines lines() && { return std::move(lines_); }
 
   private:
+    struct Part {
+        uint32_t item;    // its first
+        uint32_t parent;  // the part that has that one's parent
+        bool isPlaced = false;
+        std::vector<uint32_t> children{};  // parts, once it is placed
+    };
     struct Lighter {
         const LinesOfParts& lines;
         bool operator()(uint32_t a, uint32_t b) const {
@@ -139,53 +59,95 @@ class LinesOfParts {
             return weightOfA != weightOfB ? weightOfA < weightOfB : a > b;
         }
     };
-    double weight(uint32_t part) const { return items_[parts_[part].items[0]].weight; }
-    size_t size(uint32_t part) const { return parts_[part].items.size(); }
+    double weight(uint32_t part) const { return items_[parts_[part].item].weight; }
+    uint32_t size(uint32_t part) const { return best_.bestSize(parts_[part].item); }
 
-    void makeReady(uint32_t part) {
+    void makeReady(uint32_t item, uint32_t parent) {
+        const auto part = uint32_t(parts_.size());
+        parts_.push_back({item, parent});
         if (size(part) < lineSlots_) bySize_[size(part)].push_back(part);
-        if (size(part) == lineSlots_ || !parts_[part].children.empty()) first_.push(part);
+        if (size(part) == lineSlots_ || size(part) < best_.mostItems(item)) first_.push(part);
     }
-    void place(uint32_t part) {
-        isPlaced_[part] = true;
-        lines_.back().insert(lines_.back().end(), parts_[part].items.begin(), parts_[part].items.end());
-        for (const uint32_t child : parts_[part].children) makeReady(child);
+    /// As many items of the part, in the last line.
+    void place(uint32_t part, uint32_t size) {
+        parts_[part].isPlaced = true;
+        const auto from = uint32_t(parts_.size());
+        placeItems(part, parts_[part].item, size);
+        for (uint32_t child = from; child < parts_.size(); ++child) parts_[part].children.push_back(child);
+    }
+    void placeItems(uint32_t part, uint32_t item, uint32_t size) {
+        lines_.back().push_back(item);
+        const uint32_t onTheLeft = best_.sizeOnTheLeft(item, size);
+        const uint32_t shares[2] = {onTheLeft, size - 1 - onTheLeft};
+        for (size_t side = 0; side < 2; ++side) {
+            const uint32_t child = items_[item].children[side];
+            if (child == kNone) continue;
+            if (shares[side] > 0)
+                placeItems(part, child, shares[side]);
+            else
+                makeReady(child, part);
+        }
+    }
+
+    /// To open a line.
+    uint32_t next() {
+        while (!first_.empty()) {
+            const uint32_t part = first_.top();
+            first_.pop();
+            if (!parts_[part].isPlaced) return part;
+        }
+        return longest(lineSlots_ - 1);
     }
     uint32_t siblingOf(uint32_t part, uint32_t room) const {
-        uint32_t best = kNoItem;
-        if (parts_[part].parent == kNoItem) return best;
+        uint32_t best = kNone;
+        if (parts_[part].parent == kNone) return best;
         for (const uint32_t sibling : parts_[parts_[part].parent].children)
-            if (!isPlaced_[sibling] && size(sibling) <= room &&
-                (best == kNoItem || size(sibling) > size(best)))
+            if (!parts_[sibling].isPlaced && size(sibling) <= room &&
+                (best == kNone || size(sibling) > size(best)))
                 best = sibling;
         return best;
     }
     uint32_t longest(uint32_t room) {
-        for (size_t size = std::min<size_t>(room, lineSlots_ - 1); size > 0; --size) {
+        for (size_t size = std::min(room, lineSlots_ - 1); size > 0; --size) {
             std::vector<uint32_t>& parts = bySize_[size];
-            while (!parts.empty() && isPlaced_[parts.back()]) parts.pop_back();
+            while (!parts.empty() && parts_[parts.back()].isPlaced) parts.pop_back();
             if (!parts.empty()) return parts.back();
         }
-        return kNoItem;
+        return kNone;
+    }
+    /// When all that are ready have more than `size` items: the one whose cost grows least with so many.
+    uint32_t cheapestOf(uint32_t size) const {
+        uint32_t best = kNone;
+        double least = std::numeric_limits<double>::infinity();
+        for (uint32_t part = 0; part < parts_.size(); ++part) {
+            if (parts_[part].isPlaced) continue;
+            const uint32_t item = parts_[part].item;
+            const double loss = best_.cost(item, size) - best_.cost(item, best_.bestSize(item));
+            if (loss < least) {
+                least = loss;
+                best = part;
+            }
+        }
+        return best;
     }
 
-    const std::vector<ClusterItem>& items_;
-    const std::vector<LinePart>& parts_;
+    std::span<const TreeItem> items_;
     uint32_t lineSlots_;
+    size_t spareSlots_;
+    ConnectedParts best_;
+    std::vector<Part> parts_;                    // those that are placed, or ready for it
     std::vector<std::vector<uint32_t>> bySize_;  // parts that are ready and not full
-    std::vector<bool> isPlaced_;
     std::priority_queue<uint32_t, std::vector<uint32_t>, Lighter> first_;
     ClusterLines lines_;
 };
 
 }  // namespace
 
-ClusterLines packLines(const std::vector<ClusterItem>& items, uint32_t lineSlots) {
-    const std::vector<LinePart> parts = BestParts(items, lineSlots).parts();
-    return LinesOfParts(items, parts, lineSlots).lines();
+ClusterLines packLines(std::span<const TreeItem> items, uint32_t lineSlots, uint32_t maxSlots) {
+    return LinesOfParts(items, lineSlots, maxSlots - items.size()).lines();
 }
 
-ClusterLines growLines(const std::vector<ClusterItem>& items, uint32_t lineSlots) {
+ClusterLines growLines(std::span<const TreeItem> items, uint32_t lineSlots) {
     const auto lighter = [&](uint32_t a, uint32_t b) {
         return items[a].weight != items[b].weight ? items[a].weight < items[b].weight : a > b;
     };
@@ -200,7 +162,7 @@ ClusterLines growLines(const std::vector<ClusterItem>& items, uint32_t lineSlots
             line.push_back(border.top());
             border.pop();
             for (const uint32_t child : items[line.back()].children)
-                if (child != kNoItem) border.push(child);
+                if (child != kNone) border.push(child);
         }
         const auto behind = std::ptrdiff_t(roots.size());
         for (; !border.empty(); border.pop()) roots.push_back(border.top());

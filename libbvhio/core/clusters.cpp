@@ -9,7 +9,7 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kNoParent = ClusterItem::kNone;
+constexpr uint32_t kNoParent = TreeItem::kNone;
 
 /// Depth first, left before right, so that ties do not depend on their order in memory.
 std::vector<ClusterPair> pairsOf(const Bvh& bvh, std::span<const double> weights) {
@@ -38,20 +38,29 @@ std::vector<ClusterPair> pairsOf(const Bvh& bvh, std::span<const double> weights
     return pairs;
 }
 
-/// The records of the cluster that starts at a pair, and glue for those that start below it.
-void gather(const std::vector<ClusterPair>& pairs, uint32_t root, std::vector<ClusterItem>& items) {
-    items.assign(1, {root, pairs[root].weight});
-    for (size_t i = 0; i < items.size(); ++i) {
-        if ((items[i].word & SlotMap::kGlue) != 0) continue;
-        const ClusterPair& pair = pairs[items[i].word];
-        for (size_t side = 0; side < 2; ++side) {
-            const uint32_t child = pair.children[side];
-            if (child == kNoParent) continue;
-            items[i].children[side] = uint32_t(items.size());
-            items.push_back({child | (pairs[child].isCut ? SlotMap::kGlue : 0), pairs[child].weight});
+/// A cluster's records, and glue for those that start others below it.
+struct Cluster {
+    std::vector<TreeItem> items;
+    std::vector<uint32_t> words;  // what the items' slots will hold, of pairs by their numbers
+
+    Cluster(const std::vector<ClusterPair>& pairs, uint32_t root) {
+        const auto add = [&](uint32_t pair, uint32_t glue) {
+            items.push_back({pairs[pair].weight});
+            words.push_back(pair | glue);
+        };
+        add(root, 0);
+        for (size_t i = 0; i < items.size(); ++i) {
+            if ((words[i] & SlotMap::kGlue) != 0) continue;
+            const ClusterPair& pair = pairs[words[i]];
+            for (size_t side = 0; side < 2; ++side) {
+                const uint32_t child = pair.children[side];
+                if (child == kNoParent) continue;
+                items[i].children[side] = uint32_t(items.size());
+                add(child, pairs[child].isCut ? SlotMap::kGlue : 0);
+            }
         }
     }
-}
+};
 
 }  // namespace
 
@@ -70,22 +79,25 @@ SlotMap makeClusters(const Bvh& bvh, const ClusterOptions& options, std::span<co
         words.resize(lines * options.lineSlots, SlotMap::kEmpty);
     };
     std::vector<uint32_t> roots{0};  // of clusters to come, depth first, the heaviest child first
-    std::vector<ClusterItem> items;
     while (!roots.empty()) {
-        gather(pairs, roots.back(), items);
+        const Cluster cluster(pairs, roots.back());
         roots.pop_back();
-        const ClusterLines lines =
-            asPaper ? growLines(items, options.lineSlots) : packLines(items, options.lineSlots);
-        // Short lines end in padding, unless that would take the last ones out of reach.
-        const bool isPadded = lines.size() * options.lineSlots <= 1u << options.pointerBits;
+        const uint32_t maxSlots = 1u << options.pointerBits;
+        const ClusterLines lines = asPaper ? growLines(cluster.items, options.lineSlots)
+                                           : packLines(cluster.items, options.lineSlots, maxSlots);
+        // Short lines end in padding as far as that takes nothing out of reach.
+        size_t spare = maxSlots - cluster.items.size();
         for (const std::vector<uint32_t>& line : lines) {
-            for (const uint32_t item : line) words.push_back(items[item].word);
-            if (isPadded) padToLine();
+            for (const uint32_t item : line) words.push_back(cluster.words[item]);
+            const size_t padding = (options.lineSlots - words.size() % options.lineSlots) % options.lineSlots;
+            if (padding > spare) continue;
+            spare -= padding;
+            padToLine();
         }
         padToLine();
         const auto behind = std::ptrdiff_t(roots.size());
-        for (const ClusterItem& item : items)
-            if ((item.word & SlotMap::kGlue) != 0) roots.push_back(item.word & ~SlotMap::kGlue);
+        for (const uint32_t word : cluster.words)
+            if ((word & SlotMap::kGlue) != 0) roots.push_back(word & ~SlotMap::kGlue);
         std::sort(roots.begin() + behind, roots.end(), [&](uint32_t a, uint32_t b) {
             return pairs[a].weight != pairs[b].weight ? pairs[a].weight < pairs[b].weight : a > b;
         });

@@ -8,7 +8,8 @@
 //
 // Departures (ClusterMethod::cheapest): a tree knapsack finds the cuts that cost the least in glue fetched
 // and slots spent together (core/cluster_cuts.h), and another one the lines with the fewest expected changes
-// from one to another (core/cluster_lines.h); what small parts leave of lines is filled with others.
+// from one to another (core/cluster_lines.h); what small parts leave of lines is filled with others, or, in
+// a cluster too full for lines that end short, with the first of a larger part.
 #pragma once
 
 #include <span>

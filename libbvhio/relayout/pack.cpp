@@ -1,5 +1,5 @@
 // Ours. Connected clusters of at most a page, and in each connected clusters of at most a line, both chosen
-// so that rays enter as few as possible (relayout/connected_clusters.h). Pages follow each other depth first,
+// so that rays enter as few as possible (core/connected_parts.h). Pages follow each other depth first,
 // the likeliest at once; of the lines in a page the likeliest whose parent is placed is next.
 //
 // There is no room to waste: pairs follow each other without gaps, so a line that is not full would push all
@@ -14,7 +14,8 @@
 #include <queue>
 #include <set>
 
-#include "relayout/connected_clusters.h"
+#include "core/connected_parts.h"
+#include "relayout/pair_tree.h"
 
 namespace bvhio {
 namespace {
@@ -28,11 +29,11 @@ constexpr uint32_t kMaxClusterSize = 16;
 class Packer {
   public:
     /// `lineSize` and `pageSize` in pairs.
-    Packer(const PairTree& tree, uint32_t lineSize, uint32_t pageSize)
+    Packer(const PairTree& tree, const std::vector<TreeItem>& items, uint32_t lineSize, uint32_t pageSize)
         : tree_(tree),
           lineSize_(lineSize),
-          page_(connectedClusters(tree, pageSize)),
-          top_(connectedClusters(tree, lineSize, page_)),
+          page_(ConnectedParts(items, pageSize).firstItems()),
+          top_(ConnectedParts(items, lineSize, page_).firstItems()),
           sizes_(tree.size(), 0),
           placed_(tree.size(), 0),
           waiting_(lineSize) {
@@ -223,7 +224,7 @@ LayoutResult layoutPack(const Bvh& bvh, const LayoutOptions& options) {
     const uint32_t clustersPerLine = (perLine + kMaxClusterSize - 1) / kMaxClusterSize;
     const uint32_t lineSize = perLine / clustersPerLine;
     const uint32_t pageSize = std::max(lineSize, kPageBytes / options.recordBytes);
-    return {tree.nodeOrder(Packer(tree, lineSize, pageSize).run())};
+    return {tree.nodeOrder(Packer(tree, tree.items(), lineSize, pageSize).run())};
 }
 
 }  // namespace bvhio

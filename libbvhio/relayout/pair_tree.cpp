@@ -29,6 +29,14 @@ PairTree::PairTree(const Bvh& bvh, const PairWeights& weights) {
     for (size_t i = pairs.size(); i-- > 1;) pairs[pairs[i].parent].size += pairs[i].size;
 }
 
+std::vector<TreeItem> PairTree::items() const {
+    std::vector<TreeItem> items(pairs.size());
+    std::transform(pairs.begin(), pairs.end(), items.begin(), [](const Pair& pair) {
+        return TreeItem{pair.weight, pair.children};
+    });
+    return items;
+}
+
 NodeOrder PairTree::nodeOrder(const std::vector<uint32_t>& numbers) const {
     NodeOrder order(numbers.size());
     std::transform(numbers.begin(), numbers.end(), order.begin(),

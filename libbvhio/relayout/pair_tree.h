@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "core/connected_parts.h"
 #include "relayout/node_order.h"
 #include "relayout/pair_weights.h"
 
@@ -12,7 +13,7 @@ namespace bvhio {
 /// below its children's, a subtree's numbers are one run, and ties that go to the lower number go left.
 /// Empty for a tree of one leaf.
 struct PairTree {
-    static constexpr uint32_t kNone = ~uint32_t(0);
+    static constexpr uint32_t kNone = TreeItem::kNone;
 
     struct Pair {
         uint32_t left;    // index of the left node
@@ -38,6 +39,8 @@ struct PairTree {
             std::swap(found[0], found[1]);
         return count;
     }
+    /// Children and weights alone.
+    std::vector<TreeItem> items() const;
     /// An order of numbers as one of nodes.
     NodeOrder nodeOrder(const std::vector<uint32_t>& numbers) const;
 };

@@ -142,27 +142,51 @@ void addTo(Report& report, const TreeStats& stats) {
     report["leaf_sizes"] = histogramReport(stats.leafSizes);
 }
 
-std::string_view layoutName(const Bvh& bvh) {
-    // Breadth first, the pairs lie in the order of their parents.
-    bool isBreadthFirst = true, isDepthFirst = true;
+namespace {
+
+/// Whether pairs lie level by level: then they are in the order of their parents.
+bool isBreadthFirst(const Bvh& bvh) {
     uint32_t next = 2;
-    for (size_t i = 0; i < bvh.nodes.size() && isBreadthFirst; ++i) {
+    for (size_t i = 0; i < bvh.nodes.size(); ++i) {
         if (i == 1 || bvh.nodes[i].isLeaf()) continue;
-        isBreadthFirst = bvh.nodes[i].first == next;
+        if (bvh.nodes[i].first != next) return false;
         next += 2;
     }
-    next = 2;
+    return true;
+}
+
+/// "dfs", "odfs" or "depth-first"; "" where pairs don't lie depth first.
+std::string_view depthFirstName(const Bvh& bvh) {
+    // As odfs has it, so that it sees the same ties.
+    const double rootArea = halfArea(bvh.nodes[0].bounds);
+    const auto weight = [&](const Node& node) { return rootArea > 0 ? halfArea(node.bounds) / rootArea : 1; };
+    bool leftFirst = true, largerFirst = true;
+    uint32_t next = 2;
     std::vector<uint32_t> open{0};
-    while (!open.empty() && isDepthFirst) {
-        const Node& node = bvh.nodes[open.back()];
+    while (!open.empty()) {
+        const Node& parent = bvh.nodes[open.back()];
         open.pop_back();
-        if (node.isLeaf()) continue;
-        isDepthFirst = node.first == next;
+        if (parent.isLeaf()) continue;
+        if (parent.first != next) return "";
         next += 2;
-        open.push_back(node.right());
-        open.push_back(node.left());
+        const Node &left = bvh.nodes[parent.left()], &right = bvh.nodes[parent.right()];
+        const bool isRightFirst = !left.isLeaf() && !right.isLeaf() && right.first == next;
+        if (!left.isLeaf() && !right.isLeaf()) {
+            leftFirst &= !isRightFirst;
+            largerFirst &= isRightFirst == (weight(right) > weight(left));
+        }
+        open.push_back(isRightFirst ? parent.left() : parent.right());
+        open.push_back(isRightFirst ? parent.right() : parent.left());
     }
-    return isDepthFirst ? "dfs" : isBreadthFirst ? "bfs" : "other";
+    return leftFirst ? "dfs" : largerFirst ? "odfs" : "depth-first";
+}
+
+}  // namespace
+
+std::string_view layoutName(const Bvh& bvh) {
+    if (!bvh.slots.empty()) return "clusters";
+    if (const std::string_view name = depthFirstName(bvh); !name.empty()) return name;
+    return isBreadthFirst(bvh) ? "bfs" : "other";
 }
 
 }  // namespace bvhio

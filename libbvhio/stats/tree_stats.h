@@ -44,8 +44,10 @@ double sahCost(const Scene& scene, const EncodedBvh& bvh, const SahCosts& costs)
 /// leaf_depths{depth: leaves} and leaf_sizes{references: leaves}.
 void addTo(Report& report, const TreeStats& stats);
 
-/// The layout as seen from the order of sibling pairs in memory: "dfs" (node, left subtree, right subtree;
-/// also what odfs gives), "bfs" (level by level), or "other". A tree with one pair at most is dfs.
+/// The layout as far as it shows in the tree: "clusters" (it has a slot map); or by the order of sibling
+/// pairs in memory "dfs" (each pair, its left subtree, its right one), "odfs" (of two subtrees the one with
+/// the larger box first), "depth-first" (whole subtrees too, in another order, such as that of visits), "bfs"
+/// (level by level), or "other". Where several are true, as in a small tree, it is the first of those. O(n).
 std::string_view layoutName(const Bvh& bvh);
 
 }  // namespace bvhio

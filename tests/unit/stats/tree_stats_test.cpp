@@ -5,6 +5,8 @@
 #include "build/median.h"
 #include "common/shuffled_tree.h"
 #include "common/test_scenes.h"
+#include "relayout/clusters.h"
+#include "relayout/layouts.h"
 
 namespace bvhio {
 namespace {
@@ -73,25 +75,31 @@ TEST(TreeStats, fillsTheReport) {
     EXPECT_EQ(report["leaf_depths"].dump(), R"({"1":1,"2":2})");
 }
 
-TEST(LayoutName, tellsDepthFirstFromBreadthFirstAndOthers) {
-    const Scene scene = test::sceneOf(test::randomTriangles(64, 1, 0.2f));
-    const Bvh depthFirst = buildMedian(scene, {.costs = {}, .maxLeafSize = 1});
-    EXPECT_EQ(layoutName(depthFirst), "dfs");
-    EXPECT_EQ(layoutName(test::shuffledTree(depthFirst, 1, false)), "other");
+/// As bvh-relayout puts it there.
+Bvh laidOut(const Bvh& bvh, std::string_view layout, const LayoutOptions& options = {}) {
+    return applyLayout(bvh, choose(layouts(), "layout", layout).function(bvh, options));
+}
 
-    AlignedVector<Node> nodes(depthFirst.nodes.size());
-    nodes[0] = depthFirst.nodes[0];
-    nodes[1] = {};
-    for (uint32_t i = 0, next = 2; i < nodes.size(); ++i) {
-        if (i == 1 || nodes[i].isLeaf()) continue;
-        nodes[next] = depthFirst.nodes[nodes[i].left()];
-        nodes[next + 1] = depthFirst.nodes[nodes[i].right()];
-        nodes[i].first = next;
-        next += 2;
-    }
-    const Bvh breadthFirst{std::move(nodes),
-                           std::vector<uint32_t>(depthFirst.primitives.begin(), depthFirst.primitives.end())};
-    EXPECT_EQ(layoutName(breadthFirst), "bfs");
+// A file that says "other" of an order that can be seen, or gives it another's name, misleads its reader.
+TEST(LayoutName, tellsWhatCanBeSeen) {
+    const Scene scene = test::sceneOf(test::randomTriangles(64, 1, 0.2f));
+    const Bvh tree = buildMedian(scene, {.costs = {}, .maxLeafSize = 1});
+    EXPECT_EQ(layoutName(tree), "dfs");
+    EXPECT_EQ(layoutName(test::shuffledTree(tree, 1, false)), "other");
+    for (const auto& [layout, name] : {std::pair{"dfs", "dfs"},
+                                       {"odfs", "odfs"},
+                                       {"bfs", "bfs"},
+                                       {"veb", "other"},
+                                       {"clusters", "clusters"}})
+        EXPECT_EQ(layoutName(laidOut(tree, layout)), name);
+
+    // Visits to the right.
+    LayoutOptions options;
+    options.weights.assign(tree.nodes.size() / 2, 1);
+    for (size_t i = 2; i < tree.nodes.size(); ++i)
+        if (!tree.nodes[i].isLeaf())
+            options.weights[tree.nodes[i].left() / 2] = options.weights[i / 2] * (i % 2 == 0 ? 0.5 : 0.9);
+    EXPECT_EQ(layoutName(laidOut(tree, "odfs", options)), "depth-first");
 
     EXPECT_EQ(layoutName(buildMedian(test::sceneOf({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}), {})), "dfs");
 }

@@ -83,8 +83,10 @@ struct EncodeOptions {
 ///   `clipToBox` accepts any box inside the child's stored box, at this tLimit, and let `enter` not exceed
 ///   the `enter` that it finds for that box.
 /// - isLeaf, primitiveRange: of a cursor; leaves are entered, never stepped from.
+///   A form that reads for the range what its cursor does not hold has another primitiveRange, which takes
+///   the metrics too.
 ///
-/// Each record fetched and each box tested is told to the metrics.
+/// Each record fetched, of whatever kind, and each box tested is told to the metrics.
 template <class F>
 concept SteppableForm = requires(const F form, const typename F::Cursor cursor, const typename F::Ray ray,
                                  float tLimit, const Entered<typename F::Cursor> entered,

@@ -154,6 +154,15 @@ class QuantizedShortForm {
         const uint32_t first = firstEntryOf(cursor.firstEntry, cursor.reference);
         return {first, countFrom(first)};
     }
+    /// Tells the words of the bitmap, which lies behind the slots.
+    template <class Metrics>
+    BVHIO_INLINE PrimitiveRange primitiveRange(const Cursor& cursor, Metrics& metrics) const {
+        const PrimitiveRange range = primitiveRange(cursor);
+        if (!lastEntries_.empty())
+            metrics.recordFetched(slots_.size() * sizeof(ShortRecord) + range.first / 32 * sizeof(uint32_t),
+                                  2 * sizeof(uint32_t));
+        return range;
+    }
 
     /// Of the bitmap: a bit for each entry of the leaf order, and a word more, so that two can be read.
     static constexpr size_t lastEntryWords(size_t references) { return (references + 31) / 32 + 1; }

@@ -17,9 +17,8 @@
 //                   siblings), and 52 for each triangle tested: 4 of the primitive array, 12 of indices, 36
 //                   of vertices.
 // LCV               The standard deviation over rays of LC: sqrt(E[LC^2] - E[LC]^2).
-// records  per ray  Node records fetched.
-// SOC      per ray  Stack operations: pushes and pops.
-// SBL      per ray  Bytes that those move.
+// records  per ray  Node records fetched; what a form reads beside its nodes to find a leaf's triangles is
+// one. SOC      per ray  Stack operations: pushes and pops. SBL      per ray  Bytes that those move.
 //
 // Locality (LJC, CMC, WSS) is in trace/locality.h. Sources of the names and of LCV: T. Aila, T. Karras, S.
 // Laine, "On Quality Metrics of Bounding Volume Hierarchies", HPG 2013, and the metrics of the HeavyRT

@@ -87,7 +87,11 @@ struct TestTriangles {
     Metrics& metrics;
 
     HWY_INLINE bool operator()(const Entered<typename F::Cursor>& leaf) const {
-        const PrimitiveRange range = form.primitiveRange(leaf.cursor);
+        PrimitiveRange range;
+        if constexpr (requires { form.primitiveRange(leaf.cursor, metrics); })
+            range = form.primitiveRange(leaf.cursor, metrics);
+        else
+            range = form.primitiveRange(leaf.cursor);
         metrics.leafEntered(range);
         return source.test(range, ray, query);
     }

@@ -178,6 +178,29 @@ TEST(Fetches, areToldRayByRayWithTheirPlaces) {
     EXPECT_EQ(tracer.arraySizes(), (FetchedArraySizes{128, 8, 24, 72}));
 }
 
+// What says where a leaf ends is read, too: the array behind the slots.
+TEST(Fetches, tellWhereLeavesOfShortRecordsEnd) {
+    const Triangle near{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, far{{5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+    const Scene scene = test::sceneOf({near, near, far, far});
+    AlignedVector<Node> nodes(4);
+    nodes[0] = {{{0, 0, 0}, {6, 1, 0}}, 2, 0};
+    nodes[1] = {};
+    nodes[2] = {{{0, 0, 0}, {1, 1, 0}}, 0, 2};
+    nodes[3] = {{{5, 0, 0}, {6, 1, 0}}, 2, 2};
+    const Bvh tree{std::move(nodes), std::vector<uint32_t>{0, 1, 2, 3}};
+    const EncodedBvh bvh = QuantizedShortForm::encode(scene, tree, {});
+    const Ray rays[] = {{{0.25f, 0.25f, 9}, 0, {0, 0, -1}, 100}};
+    Recorder recorder;
+    FetchListener* const listeners[] = {&recorder};
+    const Tracer tracer(scene, bvh);
+    const TraceMeasurement measured = tracer.measure(rays, Query::closest, {}, listeners);
+    ASSERT_EQ(recorder.heard.size(), 2u + 2 * 5);
+    EXPECT_EQ(recorder.heard[0], (std::array<uint64_t, 4>{0, 0, 0, 8}));
+    EXPECT_EQ(recorder.heard[1], (std::array<uint64_t, 4>{0, 0, 8, 8}));
+    EXPECT_EQ(tracer.arraySizes()[0], 16u);
+    EXPECT_EQ(measured.counts.recordBytes, 16u);
+}
+
 TEST(CacheModel, countsEachArrayApartAndAllTogether) {
     CacheModel model(parseCaches("1K:64:16,2K:64:32+4K:4K:1"), {640, 4, 12, 36});
     for (int round = 0; round < 2; ++round)

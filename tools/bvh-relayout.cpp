@@ -4,6 +4,7 @@
 #include "common/useless_options.h"
 #include "relayout/clusters.h"
 #include "relayout/layouts.h"
+#include "relayout/order_effect.h"
 
 using namespace bvhio;
 
@@ -82,34 +83,61 @@ class LayoutChoice {
     float threshold_ = -1, smoothing_ = -1;
 };
 
-/// What the report says of clusters, over all trees.
-class ClusterReport {
+/// What the report says of the order and of clusters, over all trees.
+class LayoutReport {
   public:
-    void add(const SlotMap& slots) {
-        const SlotStats stats = statsOf(slots);
-        sum_.slots += stats.slots;
-        sum_.records += stats.records;
-        sum_.glue += stats.glue;
-        sum_.empty += stats.empty;
-        sum_.clusters += stats.clusters;
-        pointerBits_ = slots.pointerBits;
+    void add(const Bvh& before, const LayoutResult& layout, const LayoutOptions& options) {
+        effects_.push_back(effectOf(before, layout, options));
+        lineBytes_ = options.lineSize;
+        const SlotStats stats = statsOf(layout.slots);
+        slots_.slots += stats.slots;
+        slots_.records += stats.records;
+        slots_.glue += stats.glue;
+        slots_.empty += stats.empty;
+        slots_.clusters += stats.clusters;
+        pointerBits_ = std::max(pointerBits_, layout.slots.pointerBits);
     }
     Report report() const {
-        if (sum_.records == 0) return Report::object();
-        return {{"clusters",
-                 {{"records", sum_.records},
-                  {"clusters", sum_.clusters},
-                  {"glue_share", sum_.glueShare()},
-                  {"padding_share", sum_.paddingShare()},
-                  {"fill", sum_.fill(pointerBits_)},
-                  {"bytes_per_record", double(sum_.slots) * kSlotBytes / double(sum_.records)}}}};
+        Report report;
+        report["order"] = order();
+        if (slots_.records > 0) report["clusters"] = clusters();
+        return report;
     }
 
   private:
     static constexpr double kSlotBytes = 8;
 
-    SlotStats sum_;
-    uint32_t pointerBits_ = 0;
+    Report order() const {
+        const auto sum = [&](auto OrderEffect::*count) {
+            uint64_t total = 0;
+            for (const OrderEffect& effect : effects_) total += effect.*count;
+            return total;
+        };
+        Report order = {{"pairs", sum(&OrderEffect::pairs)},       {"moved", sum(&OrderEffect::moved)},
+                        {"record_bytes", effects_[0].recordBytes}, {"line_bytes", lineBytes_},
+                        {"page_bytes", OrderEffect::kPageBytes},   {"lines", sum(&OrderEffect::lines)},
+                        {"pages", sum(&OrderEffect::pages)}};
+        // How often rays reach each of several trees is not known.
+        if (effects_.size() > 1) return order;
+        const auto changes = [](const ExpectedChanges& of) {
+            return Report{{"before", of.before}, {"after", of.after}};
+        };
+        order["line_changes"] = changes(effects_[0].lineChanges);
+        order["page_changes"] = changes(effects_[0].pageChanges);
+        return order;
+    }
+    Report clusters() const {
+        return {{"records", slots_.records},
+                {"clusters", slots_.clusters},
+                {"glue_share", slots_.glueShare()},
+                {"padding_share", slots_.paddingShare()},
+                {"fill", slots_.fill(pointerBits_)},
+                {"bytes_per_record", double(slots_.slots) * kSlotBytes / double(slots_.records)}};
+    }
+
+    std::vector<OrderEffect> effects_;  // of each tree
+    SlotStats slots_;
+    uint32_t lineBytes_ = 0, pointerBits_ = 0;
 };
 
 ExitCode relayout(CommandLine& line) {
@@ -124,17 +152,17 @@ ExitCode relayout(CommandLine& line) {
                     "--probability visits: the container has none: record them by bvh-trace --record-visits");
     pass.stages().begin("relayout");
     std::vector<uint32_t> visits;
-    ClusterReport clusters;
+    LayoutReport report;
     changeTrees(file, [&](const Scene&, const Bvh& bvh, bool) {
         if (choice.byVisits()) options.weights = weightsByVisits(bvh, file.visits, choice.smoothing());
         const LayoutResult result = layout.function(bvh, options);
         if (!file.visits.empty()) visits = inNodeOrder(file.visits, result.order);
-        clusters.add(result.slots);
+        if (pass.reports()) report.add(bvh, result, options);
         return applyLayout(bvh, result);
     });
     dropChunksThatDoNotSurvive(file, Change::reordered);
     if (!visits.empty()) file.visits = std::move(visits);
-    pass.finish(file, {}, "relayout", clusters.report());
+    pass.finish(file, {}, "relayout", pass.reports() ? report.report() : Report::object());
     return ExitCode::done;
 }
 

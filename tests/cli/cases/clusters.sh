@@ -2,7 +2,9 @@
 grid 40 | bvh-build --max-leaf-size 1 -o grid.bvhx
 chunks() { bvh-stats - --chunks | awk '{ print $1 }' | tr '\n' ' '; echo; }
 bvh-relayout grid.bvhx --layout clusters --pointer-bits 6 --report report.json -o clusters.bvhx
-json options.pointer-bits options.line-size clusters.records clusters.clusters <report.json
+json options.pointer-bits options.line-size order.record_bytes clusters.records clusters.clusters <report.json
+keys report.json clusters.glue_share clusters.padding_share clusters.fill clusters.bytes_per_record
+bvh-stats clusters.bvhx --no-epo --format json | json layout
 bvh-stats clusters.bvhx --check
 chunks <clusters.bvhx
 bvh-stats grid.bvhx --diff clusters.bvhx | grep verdict

@@ -5,6 +5,8 @@ bvh-relayout cube.bvhx --report relayout.json >relaid.bvhx
 bvh-compress cube.bvhx --report compress.json >compressed.bvhx
 for tool in build restructure relayout compress; do
     keys $tool.json sah_before sah_after seconds threads peak_bytes options
+    [ $tool != relayout ] || keys $tool.json order.pairs order.moved order.record_bytes order.line_bytes order.page_bytes \
+        order.lines order.pages order.line_changes.before order.line_changes.after order.page_changes.before order.page_changes.after
     [ $tool != restructure ] || keys $tool.json iterations bytes_per_node
     json options <$tool.json
 done

@@ -35,6 +35,10 @@ KINDS = [  # key, heading, bytes of a record, options of bvh-compress, bytes tha
     ("16", "16-byte records: quantized", 16, ["--form", "quantized"], 1),
     ("8", "8-byte records, if pointers were free", 8, ["--form", "quantized"], 2),
 ]
+NOTES = {  # below the table of a kind, where all that it names was compared
+    "64": (("odfs", "tbfs"), "A treelet of **tbfs** has as many records as a line, and a record of 64 bytes fills one of 64: with treelets of one pair "
+                             "**tbfs** is **odfs**, but for the lines of 128."),
+}
 CUBE = """v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n"""
 
 
@@ -197,6 +201,9 @@ def ratio_tables(scenes, found):
                     cells.append(" / ".join(f"{combine([base.rate[order] / own.rate[order] for own, base in pairs]):.2f}"
                                             for order in ORDERS))
             lines.append(columns(*cells))
+        names, note = NOTES.get(key, ((), ""))
+        if note and all(name in {variant.layout for variant in found} for name in names):
+            lines += ["", note]
         parts.append(f"## {title}\n\n" + "\n".join(lines) + "\n")
     return parts
 

@@ -1,9 +1,8 @@
 // The bottom level of the two-level form: many trees of one form, whose nodes share one array.
 //
-// BLASes are stepped through like a form, from `root`: the root of the BLAS that a leaf of the top level
-// names, given how the ray enters that leaf's box, which is the root's box too. Roots have nothing but what
-// tells where to go on: 4 or 8 bytes in an array of their own. (Those of compress/mvh_blases.h have not even
-// that.)
+// The BLAS that a leaf of the top level names, `tree`, is stepped through like a form, from its `root`, given
+// how the ray enters that leaf's box, which is the root's box too. Roots have nothing but what tells where to
+// go on: 4 or 8 bytes in an array of their own. (Those of compress/mvh_blases.h have not even that.)
 #pragma once
 
 #include "compress/aabb_form.h"
@@ -13,6 +12,9 @@
 #include "compress/two_levels.h"
 
 namespace bvhio {
+
+template <class Links>
+class LinkedTree;
 
 /// BLASes in a form whose nodes name their children. Links says what is special to the form:
 /// - Form, Root: an element of the array of roots,
@@ -25,11 +27,9 @@ class LinkedBlases {
   public:
     using Form = typename Links::Form;
     using Root = typename Links::Root;
-    using Cursor = typename Form::Cursor;
     using Ray = typename Form::Ray;
     static constexpr std::string_view kName = Form::kName;
     static constexpr bool kAreRuns = false;
-    static constexpr int kMaxChildren = Form::kMaxChildren;
     static constexpr uint32_t kMaxLeafSize = Links::kMaxLeafSize;
 
     /// `form` has nodes only: those below all roots.
@@ -52,25 +52,47 @@ class LinkedBlases {
         return Links::prepare(ray, bounds);
     }
 
-    /// `leaf` and `entry` are those of a leaf of the top level.
+    /// The one that a leaf of the top level names.
+    BVHIO_INLINE LinkedTree<Links> tree(PrimitiveRange leaf) const { return {*this, leaf.first}; }
+
+  private:
+    SharedArray<Root> roots_;
+    Form form_;
+};
+
+/// One of them, for a ray to step through.
+template <class Links>
+class LinkedTree {
+  public:
+    using Form = typename Links::Form;
+    using Cursor = typename Form::Cursor;
+    using Ray = typename Form::Ray;
+    static constexpr int kMaxChildren = Form::kMaxChildren;
+
+    BVHIO_INLINE LinkedTree(const LinkedBlases<Links>& blases, uint32_t number)
+        : blases_(blases), number_(number) {}
+
+    /// `entry` is that of the leaf of the top level.
     template <class Entry, class Metrics>
-    BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, const Ray& ray,
-                                      Metrics& metrics) const {
-        metrics.recordFetched(form_.nodeBytes() + leaf.first * sizeof(Root), sizeof(Root));
-        return {Links::cursor(roots_[leaf.first], entry, ray), entry.enter};
+    BVHIO_INLINE Entered<Cursor> root(const Entry& entry, const Ray& ray, Metrics& metrics) const {
+        using Root = typename Links::Root;
+        metrics.recordFetched(form().nodeBytes() + number_ * sizeof(Root), sizeof(Root));
+        return {Links::cursor(blases_.roots()[number_], entry, ray), entry.enter};
     }
 
     template <class Metrics>
     BVHIO_INLINE int step(const Entered<Cursor>& from, const Ray& ray, float tLimit,
                           Entered<Cursor>* children, Metrics& metrics) const {
-        return form_.step(from, ray, tLimit, children, metrics);
+        return form().step(from, ray, tLimit, children, metrics);
     }
-    bool isLeaf(const Cursor& cursor) const { return form_.isLeaf(cursor); }
-    PrimitiveRange primitiveRange(const Cursor& cursor) const { return form_.primitiveRange(cursor); }
+    bool isLeaf(const Cursor& cursor) const { return form().isLeaf(cursor); }
+    PrimitiveRange primitiveRange(const Cursor& cursor) const { return form().primitiveRange(cursor); }
 
   private:
-    SharedArray<Root> roots_;
-    Form form_;
+    BVHIO_INLINE const Form& form() const { return blases_.form(); }
+
+    const LinkedBlases<Links>& blases_;
+    uint32_t number_;
 };
 
 struct AabbLinks {
@@ -122,6 +144,7 @@ struct QuantizedLinks {
 using AabbBlases = LinkedBlases<AabbLinks>;
 using SshBlases = LinkedBlases<SshLinks>;
 using QuantizedBlases = LinkedBlases<QuantizedLinks>;
-static_assert(SteppableForm<AabbBlases> && SteppableForm<SshBlases> && SteppableForm<QuantizedBlases>);
+static_assert(SteppableForm<LinkedTree<AabbLinks>> && SteppableForm<LinkedTree<SshLinks>> &&
+              SteppableForm<LinkedTree<QuantizedLinks>>);
 
 }  // namespace bvhio

@@ -1,4 +1,4 @@
-// BLASes in the mvh form: trees without pointers, planes or counts; a byte for every leaf of four triangles.
+// BLASes in the mvh form: trees without pointers, planes or counts; a byte for every leaf.
 //
 // After P. Bauszat, M. Eisemann, M. Magnor, "The Minimal Bounding Volume Hierarchy", VMV 2010: the shape of a
 // tree follows from the number of its primitives, and a child's box from its parent's by a short code that
@@ -113,17 +113,75 @@ inline constexpr std::array<MvhMove, kMvhCodes> kMvhMoves = mvhMoves();
 /// The box of a child.
 InsetBox cutBox(const InsetFrame& frame, const InsetBox& box, uint32_t code);
 
-class MvhBlases {
+/// One of the trees, for a ray to step through. What all of its nodes have in common is here, so that a
+/// cursor has two numbers only.
+class MvhTree {
   public:
-    static constexpr std::string_view kName = "mvh";
-    static constexpr bool kAreRuns = true;
     static constexpr int kMaxChildren = 2;
     using Ray = RayFrame;
 
     struct Cursor {
         PlacedBox box;
-        MvhRun run;
+        uint32_t leaf, leaves;  // the first below this node, counted from the tree's first, and how many
     };
+
+    BVHIO_INLINE MvhTree(const MvhRuns& shape, const uint8_t* codes, PrimitiveRange run)
+        : codes_(codes), run_(run), leafSize_(shape.leafSize()), root_(shape.root(run)) {}
+
+    template <class Entry, class Metrics>
+    BVHIO_INLINE Entered<Cursor> root(const Entry& entry, const RayFrame& ray, Metrics&) const {
+        return {{entry.place(ray), 0, root_.leaves}, entry.enter};
+    }
+
+    /// Per pair: 3 differences for the size of the box, 6 products and 6 sums for the planes of each child, 3
+    /// sums a child for the margin.
+    template <class Metrics>
+    BVHIO_INLINE int step(const Entered<Cursor>& from, const RayFrame& ray, float tLimit,
+                          Entered<Cursor>* children, Metrics& metrics) const {
+        const uint32_t leaf = from.cursor.leaf, leaves = from.cursor.leaves, leftLeaves = (leaves + 1) / 2;
+        const uint32_t at = root_.slot + leaf + leftLeaves;  // as MvhRun::codes
+        metrics.recordFetched(at, 1);
+        metrics.boxesTested(1, BoxTestCost{17, 12});
+        metrics.boxesTested(1, BoxTestCost{16, 12});
+        const uint32_t codes = codes_[at];
+        const PlacedBox& box = from.cursor.box;
+        const Four size = RayFrame::size(box);
+        const PlacedBox left = cut(box, size, kMvhMoves[codes & 15]),
+                        right = cut(box, size, kMvhMoves[codes >> 4]);
+        const EnteredOfTwo found = ray.clip(left, right, tLimit);
+        const auto enter = [&](int child, Entered<Cursor>& entered) {
+            entered = child == 0
+                          ? Entered<Cursor>{{left, leaf, leftLeaves}, found.enter[0]}
+                          : Entered<Cursor>{{right, leaf + leftLeaves, leaves - leftLeaves}, found.enter[1]};
+        };
+        return enterInOrder(found, enter, children);
+    }
+    bool isLeaf(const Cursor& cursor) const { return cursor.leaves <= 1; }
+    PrimitiveRange primitiveRange(const Cursor& cursor) const {
+        const uint32_t before = cursor.leaf * leafSize_, left = run_.count - before;
+        return {run_.first + before, left < leafSize_ ? left : leafSize_};
+    }
+
+  private:
+    static BVHIO_INLINE PlacedBox cut(const PlacedBox& box, Four size, const MvhMove& move) {
+        Four min, max;
+        std::memcpy(&min, move.min, sizeof min);
+        std::memcpy(&max, move.max, sizeof max);
+        return {box.min + min * size, box.max - max * size};
+    }
+
+    const uint8_t* codes_;
+    PrimitiveRange run_;
+    uint32_t leafSize_;
+    MvhRun root_;
+};
+static_assert(SteppableForm<MvhTree>);
+
+class MvhBlases {
+  public:
+    static constexpr std::string_view kName = "mvh";
+    static constexpr bool kAreRuns = true;
+    using Ray = RayFrame;
 
     MvhBlases(uint32_t leafSize, SharedArray<uint8_t> codes) : shape_(leafSize), codes_(std::move(codes)) {}
 
@@ -140,63 +198,12 @@ class MvhBlases {
     size_t nodeBytes() const { return codes_.size(); }
 
     static RayFrame prepare(const PreparedRay& ray, const Aabb& bounds) { return {ray, bounds}; }
-
-    template <class Entry, class Metrics>
-    BVHIO_INLINE Entered<Cursor> root(PrimitiveRange leaf, const Entry& entry, const RayFrame& ray,
-                                      Metrics&) const {
-        return {{entry.place(ray), shape_.root(leaf)}, entry.enter};
-    }
-
-    /// Per pair: 3 differences for the size of the box, 6 products and 6 sums for the planes of each child, 3
-    /// sums a child for the margin.
-    template <class Metrics>
-    BVHIO_INLINE int step(const Entered<Cursor>& from, const RayFrame& ray, float tLimit,
-                          Entered<Cursor>* children, Metrics& metrics) const {
-        const MvhRun& run = from.cursor.run;
-        const uint32_t at = run.codes();
-        metrics.recordFetched(at, 1);
-        metrics.boxesTested(1, BoxTestCost{17, 12});
-        metrics.boxesTested(1, BoxTestCost{16, 12});
-        const uint32_t codes = codes_[at];
-        const PlacedBox& box = from.cursor.box;
-        const Four size = RayFrame::size(box);
-        const PlacedBox left = cut(box, size, kMvhMoves[codes & 15]),
-                        right = cut(box, size, kMvhMoves[codes >> 4]);
-        const EnteredOfTwo found = ray.clip(left, right, tLimit);
-        const auto enter = [&](const PlacedBox& childBox, const MvhRun& childRun, float where,
-                               Entered<Cursor>& child) {
-            child = {{childBox, childRun}, where};
-        };
-        switch (found.entered) {
-            case 0:
-                return 0;
-            case 1:
-                enter(left, shape_.left(run), found.enter[0], children[0]);
-                return 1;
-            case 2:
-                enter(right, shape_.right(run), found.enter[1], children[0]);
-                return 1;
-            default:
-                const bool rightFirst = found.enter[1] < found.enter[0];
-                enter(left, shape_.left(run), found.enter[0], children[rightFirst]);
-                enter(right, shape_.right(run), found.enter[1], children[!rightFirst]);
-                return 2;
-        }
-    }
-    bool isLeaf(const Cursor& cursor) const { return cursor.run.isLeaf(); }
-    PrimitiveRange primitiveRange(const Cursor& cursor) const { return {cursor.run.first, cursor.run.count}; }
+    /// The one over a run.
+    BVHIO_INLINE MvhTree tree(PrimitiveRange run) const { return {shape_, codes_.data(), run}; }
 
   private:
-    static BVHIO_INLINE PlacedBox cut(const PlacedBox& box, Four size, const MvhMove& move) {
-        Four min, max;
-        std::memcpy(&min, move.min, sizeof min);
-        std::memcpy(&max, move.max, sizeof max);
-        return {box.min + min * size, box.max - max * size};
-    }
-
     MvhRuns shape_;
     SharedArray<uint8_t> codes_;
 };
-static_assert(SteppableForm<MvhBlases>);
 
 }  // namespace bvhio

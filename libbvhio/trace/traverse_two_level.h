@@ -15,6 +15,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
+/// Walks through the BLAS below a leaf of the top level that is entered.
+template <class Tree, class Entry, class Source, class Query, class Metrics>
+HWY_INLINE bool traverseBlas(const Tree& tree, const Entry& entry, const typename Tree::Ray& treeRay,
+                             const Source& source, const PreparedRay& ray, Query& query, Metrics& metrics) {
+    return traverseFrom(tree, tree.root(entry, treeRay, metrics), treeRay, query, metrics,
+                        TestTriangles<Tree, Source, Query, Metrics>{tree, source, ray, query, metrics});
+}
+
 /// Visits leaves of the top level: walks through the BLAS there.
 template <class Tlas, class Blases, class Source, class Query, class Metrics>
 struct TraverseBlas {
@@ -28,11 +36,9 @@ struct TraverseBlas {
     Metrics& metrics;
 
     HWY_INLINE bool operator()(const Entered<typename Tlas::Cursor>& leaf) const {
-        const auto root = blases.root(tlas.primitiveRange(leaf.cursor),
-                                      tlas.entry(leaf, tlasRay, query.boxLimit()), blasRay, metrics);
-        return traverseFrom(
-            blases, root, blasRay, query, metrics,
-            TestTriangles<Blases, Source, Query, Metrics>{blases, source, ray, query, metrics});
+        return traverseBlas(blases.tree(tlas.primitiveRange(leaf.cursor)),
+                            tlas.entry(leaf, tlasRay, query.boxLimit()), blasRay, source, ray, query,
+                            metrics);
     }
 };
 
@@ -91,12 +97,8 @@ HWY_NOINLINE bool traverseInstance(uint32_t number, const Blases& blases, const 
     using Within = InstanceQuery<Query>;
     Within within(query, inWorld.enter, entry.primitiveOffset);
     const typename Blases::Ray blasRay = blases.prepare(local, box);
-    const auto root =
-        blases.root(leaf, BoxEntry{local, box, inMesh.enter, query.boxLimit()}, blasRay, metrics);
-    const Source triangles = source.of(local);
-    return traverseFrom(
-        blases, root, blasRay, within, metrics,
-        TestTriangles<Blases, Source, Within, Metrics>{blases, triangles, local, within, metrics});
+    return traverseBlas(blases.tree(leaf), BoxEntry{local, box, inMesh.enter, query.boxLimit()}, blasRay,
+                        source.of(local), local, within, metrics);
 }
 
 /// Visits leaves of a top level over instances.

@@ -5,12 +5,11 @@ namespace bvhio {
 namespace {
 
 EncodingCandidate twoLevel(std::string_view parameters, TlasForm tlasForm, BlasForm blasForm,
-                           uint32_t blasSize, uint32_t leafSize = EncodeOptions{}.leafSize) {
+                           uint32_t blasSize) {
     EncodeOptions options;
     options.tlasForm = tlasForm;
     options.blasForm = blasForm;
     options.blasSize = blasSize;
-    options.leafSize = leafSize;
     return {"two-level", parameters, options};
 }
 
@@ -29,8 +28,8 @@ std::span<const EncodingCandidate> encodingCandidates() {
                  16),
         twoLevel("--tlas-form quantized --blas-form mvh --blas-size 80", TlasForm::quantized, BlasForm::mvh,
                  80),
-        twoLevel("--tlas-form quantized --blas-form mvh --blas-size 80 --leaf-size 16", TlasForm::quantized,
-                 BlasForm::mvh, 80, 16),
+        twoLevel("--tlas-form quantized --blas-form mvh --blas-size 128", TlasForm::quantized, BlasForm::mvh,
+                 128),
         twoLevel("--tlas-form aabb --blas-form mvh --blas-size 16", TlasForm::aabb, BlasForm::mvh, 16),
         twoLevel("--tlas-form aabb --blas-form ssh --blas-size 16", TlasForm::aabb, BlasForm::ssh, 16),
         twoLevel("--tlas-form aabb --blas-form ssh --blas-size 32", TlasForm::aabb, BlasForm::ssh, 32),

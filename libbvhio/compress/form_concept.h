@@ -56,17 +56,17 @@ struct EncodeOptions {
     uint32_t pointerBits = 8;  // 2 to 10
     uint32_t lineSize = 64;    // bytes: a power of two, 8 to 512
 
-    uint32_t leafSize = 4;  // mvh, BLASes in that form, too: triangles in a leaf, 1 to 16
-
-    // mvh; 0 = as suits the tree
-    float zeta = 0, zetaOfBoth = 0;
+    // mvh
+    uint32_t leafSize = 4;           // triangles in a leaf, 1 to 16
+    float zeta = 0, zetaOfBoth = 0;  // 0, and below: as suits the tree
     uint32_t cutAxes = 0;
     MvhBuild mvhBuild = MvhBuild::best;
 
     // two-level
     TlasForm tlasForm{};
     BlasForm blasForm{};
-    uint32_t blasSize = 16;  // primitives that a BLAS has at most, unless a single leaf has more
+    uint32_t blasSize = 80;      // primitives that a BLAS has at most, unless a single leaf has more
+    uint32_t blasLeafSize = 16;  // of BLASes in the mvh form: triangles in a leaf, 1 to 16
 
     bool operator==(const EncodeOptions&) const = default;
 };

@@ -153,7 +153,7 @@ TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Enco
             using Bottom = std::decay_t<decltype(*type)>;
             Runs runs;
             if constexpr (Bottom::kAreRuns) {
-                runs = gatherRuns(scene, levels.bottom, bvh.primitives, MvhRuns(options.leafSize));
+                runs = gatherRuns(scene, levels.bottom, bvh.primitives, MvhRuns(options.blasLeafSize));
                 levels.top = withRuns(levels.top, runs);
             } else {
                 // A top level of one leaf owns the one BLAS.
@@ -165,7 +165,7 @@ TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Enco
             const RootPlaces places = decodeTlas(tlas).places(Bottom::kAreRuns);
             if constexpr (Bottom::kAreRuns) {
                 Bottom blases =
-                    Bottom::encode(options.leafSize, places, runs.primitives, runs.boxes, runs.ordered);
+                    Bottom::encode(options.blasLeafSize, places, runs.primitives, runs.boxes, runs.ordered);
                 return {std::move(tlas), std::move(blases), std::move(runs.primitives), options.blasSize};
             } else {
                 Bottom blases = Bottom::encode(levels.bottom, places, bvh.primitives.size(), options);
@@ -204,9 +204,9 @@ TwoLevelForm TwoLevelForm::encodeInstances(const Scene& scene, const InstancedBv
         };
         const RootPlaces places = placed.places();
         if constexpr (Bottom::kAreRuns) {
-            Runs runs = gatherRuns(scene, meshes.forest, meshes.primitives, MvhRuns(options.leafSize));
+            Runs runs = gatherRuns(scene, meshes.forest, meshes.primitives, MvhRuns(options.blasLeafSize));
             Bottom blases =
-                Bottom::encode(options.leafSize, places, runs.primitives, runs.boxes, runs.ordered);
+                Bottom::encode(options.blasLeafSize, places, runs.primitives, runs.boxes, runs.ordered);
             return formOver(std::move(blases), std::move(runs.primitives));
         } else {
             return formOver(Bottom::encode(meshes.forest, places, meshes.primitives.size(), options),
@@ -265,10 +265,10 @@ EncodeOptions TwoLevelForm::options() const {
     EncodeOptions options = std::visit([](const auto& level) { return level.form().options(); }, tlas_);
     if (const auto* quantized = std::get_if<QuantizedBlases>(&blases_))
         options.bits = quantized->form().bits();
-    if (const auto* mvh = std::get_if<MvhBlases>(&blases_)) options.leafSize = mvh->shape().leafSize();
+    if (const auto* mvh = std::get_if<MvhBlases>(&blases_)) options.blasLeafSize = mvh->shape().leafSize();
     options.tlasForm = TlasForm(tlas_.index());
     options.blasForm = BlasForm(blases_.index());
-    options.blasSize = blasSize_;
+    if (!isInstanced()) options.blasSize = blasSize_;
     return options;
 }
 

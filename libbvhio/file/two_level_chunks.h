@@ -13,6 +13,7 @@ struct FormChunks<TwoLevelForm> {
     static constexpr uint32_t kCode = chunkType("two ");
     static constexpr size_t kFormSize = 64;
     static constexpr uint32_t kMaxBlasSize = kMaxLeafSize;
+    static constexpr uint32_t kBlasSizeOfMeshes = 16;  // says nothing: they are BLASes whole
 
     static TreeParameters parameters(const TwoLevelForm& form) {
         if (form.isInstanced()) return parametersOfInstances(kCode, form);
@@ -28,8 +29,8 @@ struct FormChunks<TwoLevelForm> {
                 ByteWriter bytes;
                 bytes.u32(TlasChunks::kCode);
                 bytes.u32(BlasChunks::kCode);
-                bytes.u32(form.options().blasSize);
-                bytes.u32(isMvh(BlasChunks::kCode) ? form.options().leafSize : 0);
+                bytes.u32(form.isInstanced() ? kBlasSizeOfMeshes : form.options().blasSize);
+                bytes.u32(isMvh(BlasChunks::kCode) ? form.options().blasLeafSize : 0);
                 LevelCounts counts;
                 TlasChunks::describe(tlas, counts);
                 bytes.u64(TlasChunks::slots(tlas));

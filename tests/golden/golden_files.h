@@ -131,6 +131,7 @@ inline BvhxFile inTwoLevels(BvhxFile file, TlasForm tlas, BlasForm blas, uint32_
                             uint32_t bits = 8) {
     EncodeOptions options;
     options.bits = bits;
+    options.blasLeafSize = 4;
     options.tlasForm = tlas;
     options.blasForm = blas;
     options.blasSize = blasSize;
@@ -167,6 +168,7 @@ inline BvhxFile gridPlaces(BlasForm blas) {
     EncodeOptions options;
     options.tlasForm = TlasForm::quantized;
     options.blasForm = blas;
+    options.blasLeafSize = 4;
     const InstancedBvh trees = buildInstanced(scene, choose(builders(), "builder", "median"), {});
     file.bvh = TwoLevelForm::encodeInstances(scene, trees, options);
     return file;
@@ -207,7 +209,7 @@ inline std::vector<GoldenFile> goldenFiles() {
         {"grid_quantized_over_ssh", inTwoLevels(grid(), TlasForm::quantized, BlasForm::ssh, 9), {}},
         {"grid_aabb_over_mvh", inTwoLevels(grid(), TlasForm::aabb, BlasForm::mvh, 40), {}},
         {"grid_aabb_over_aabb", inTwoLevels(grid(), TlasForm::aabb, BlasForm::aabb, 9), {}},
-        {"grid_over_mvh_leaf_3", inForm(grid(), "two-level", {.leafSize = 3, .blasSize = 20}), {}},
+        {"grid_over_mvh_leaf_3", inForm(grid(), "two-level", {.blasSize = 20, .blasLeafSize = 3}), {}},
         {"two_triangles_over_quantized",
          inTwoLevels(twoTriangles(), TlasForm::aabb, BlasForm::quantized, 2),
          {}},

@@ -27,8 +27,8 @@ void forEachPair(const Function& function) {
                 options.tlasForm = TlasForm(tlas);
                 options.blasForm = BlasForm(blas);
                 options.blasSize = blasSize;
-                if (options.blasForm == BlasForm::mvh && blasSize > 16)
-                    options.leafSize = blasSize == 70 ? 3 : 16;
+                if (options.blasForm == BlasForm::mvh && blasSize <= 70)
+                    options.blasLeafSize = blasSize == 70 ? 3 : 4;
                 function(options);
             }
 }

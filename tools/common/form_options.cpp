@@ -113,7 +113,7 @@ EncodeOptions FormOptions::fill(std::string_view form, const EncodeOptions& defa
         fill(blasSize_, options.blasSize);
         if (options.tlasForm == TlasForm::quantized || options.blasForm == BlasForm::quantized)
             fill(bits_, options.bits);
-        if (options.blasForm == BlasForm::mvh) fill(leafSize_, options.leafSize);
+        if (options.blasForm == BlasForm::mvh) fill(leafSize_, options.blasLeafSize);
     }
     return options;
 }

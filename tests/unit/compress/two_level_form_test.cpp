@@ -72,13 +72,18 @@ TEST(MvhRuns, giveEachInnerNodeAByteOfItsOwn) {
         }
 }
 
-TEST(MvhBlases, takeAByteForFourTriangles) {
+TEST(MvhBlases, takeAByteForEveryLeaf) {
     const Scene scene = test::sphereScene(60, 30);
     const Bvh bvh = builders()[0].function(scene, {.costs = {}, .maxLeafSize = 1});
-    const TwoLevelForm form =
-        TwoLevelForm::encode(scene, bvh, optionsFor(TlasForm::quantized, BlasForm::mvh, 16));
-    EXPECT_EQ(form.nodeBytes() - form.tlasBytes(), (scene.triangles.size() + 3) / 4);
-    EXPECT_LT(double(form.nodeBytes()), 2.0 * double(scene.triangles.size()));
+    for (const uint32_t leafSize : {4u, 16u}) {
+        EncodeOptions options = optionsFor(TlasForm::quantized, BlasForm::mvh, 16);
+        options.blasLeafSize = leafSize;
+        const TwoLevelForm form = TwoLevelForm::encode(scene, bvh, options);
+        EXPECT_EQ(form.options(), options);
+        EXPECT_EQ(form.nodeBytes() - form.tlasBytes(), (scene.triangles.size() + leafSize - 1) / leafSize);
+        EXPECT_LT(double(form.nodeBytes()), 2.0 * double(scene.triangles.size()));
+    }
+    EXPECT_LT(double(TwoLevelForm::encode(scene, bvh, {}).nodeBytes()), 0.4 * double(scene.triangles.size()));
 }
 
 // Both levels count, and leaves of the top level are no leaves.

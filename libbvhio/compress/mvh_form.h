@@ -15,9 +15,25 @@ class MvhForm {
     /// 2 differences and 2 products. Half of 2 comparisons for the axis; 2 for the interval, 2 to compare.
     static constexpr BoxTestCost kBoxTestCost{9, 5};
 
-    struct Cursor {
+    class Cursor {
+      public:
+        Cursor() = default;
+        BVHIO_INLINE Cursor(const MvhPart& whole, uint32_t number, uint32_t turn)
+            : part(whole), node_(uint64_t(turn) << 32 | number) {}
+        // As they were written: what was just written in other pieces can't be read for a while.
+        BVHIO_INLINE Cursor(const Cursor& other) : part(other.part), node_(other.node_) {}
+        BVHIO_INLINE Cursor& operator=(const Cursor& other) {
+            part = other.part;
+            node_ = other.node_;
+            return *this;
+        }
+
+        BVHIO_INLINE uint32_t node() const { return uint32_t(node_); }
+        BVHIO_INLINE uint32_t turn() const { return uint32_t(node_ >> 32); }
         MvhPart part;
-        uint32_t node;
+
+      private:
+        uint64_t node_;  // the upper half is whose turn it is
     };
 
     /// `words` as in format-spec/mvh.md.
@@ -58,7 +74,7 @@ class MvhForm {
                                 Metrics& metrics) const {
         metrics.boxesTested(1, BoxTestCost{12, 12});
         const RayInterval interval = clipToBox(ray.ray, bounds_, tLimit);
-        root = {{MvhPart(ray, bounds_, interval), 0}, interval.enter};
+        root = {{MvhPart(ray, bounds_, interval), 0, 0}, interval.enter};
         return !interval.isEmpty();
     }
 
@@ -66,25 +82,29 @@ class MvhForm {
     template <class Metrics>
     BVHIO_INLINE int step(const Entered<Cursor>& from, const MvhRay& ray, float tLimit,
                           Entered<Cursor>* children, Metrics& metrics) const {
-        const uint32_t node = from.cursor.node, left = 2 * node + 1;
+        const uint32_t node = from.cursor.node(), left = 2 * node + 1;
         const bool twoLevels = left + 1 < shape_.innerCount();
         const uint32_t* const words = words_.data();
         MvhStep step;
         stepMvh(tables_, ray, mvhNibble(words, node), twoLevels ? mvhNibble(words, left) : 0,
-                twoLevels ? mvhNibble(words, left + 1) : 0, twoLevels, from.cursor.part, tLimit, step);
-        for (uint32_t i = 0; i < 4; ++i) {
+                twoLevels ? mvhNibble(words, left + 1) : 0, twoLevels, from.cursor.part, from.cursor.turn(),
+                tLimit, step);
+        const auto enter = [&](uint32_t i) {
             const uint32_t lane = step.lane(i);
             const uint32_t child = twoLevels ? 2 * left + 1 + lane : left + lane / 2;
-            children[i] = {{step.parts[lane], child}, step.parts[lane].enter};
-        }
+            children[i].cursor = {step.parts[lane], child, uint32_t(step.turns[lane])};
+            children[i].enter = step.parts[lane].enter();
+        };
+        for (uint32_t i = 1; i < step.count; ++i) enter(i);
+        enter(0);  // the last, as the traversal goes on there; means nothing where none is entered
         metrics.boxesTested(twoLevels ? 6 : 2, kBoxTestCost);
         metrics.recordFetched(size_t(node) / 8 * sizeof(uint32_t), sizeof(uint32_t));
         if (twoLevels) metrics.recordFetched(size_t(left) / 8 * sizeof(uint32_t), sizeof(uint32_t));
         return int(step.count);
     }
 
-    bool isLeaf(const Cursor& cursor) const { return shape_.isLeaf(cursor.node); }
-    PrimitiveRange primitiveRange(const Cursor& cursor) const { return shape_.primitiveRange(cursor.node); }
+    bool isLeaf(const Cursor& cursor) const { return shape_.isLeaf(cursor.node()); }
+    PrimitiveRange primitiveRange(const Cursor& cursor) const { return shape_.primitiveRange(cursor.node()); }
 
   private:
     Aabb bounds_;

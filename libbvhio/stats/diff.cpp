@@ -83,6 +83,17 @@ std::optional<Difference> geometryDifference(const Scene& a, const Scene& b) {
     return diff.result(Aspect::geometry);
 }
 
+std::optional<Difference> costsDifference(const SahCosts& a, const SahCosts& b) {
+    ArrayDiff diff;
+    const auto compare = [&](const char* name, float costA, float costB) {
+        if (costA != costB)
+            diff.note([&] { return name + format(" cost: %.6g and %.6g", double(costA), double(costB)); });
+    };
+    compare("traversal", a.traversal, b.traversal);
+    compare("intersection", a.intersection, b.intersection);
+    return diff.result(Aspect::costs);
+}
+
 std::string describe(const Bvh& bvh, uint32_t node) {
     const uint32_t count = bvh.nodes[node].primitiveCount;
     return bvh.nodes[node].isLeaf() ? format("node %u (a leaf of %u)", node, count) : format("node %u", node);
@@ -170,6 +181,7 @@ std::vector<Difference> differences(const DiffSide& inputA, const Side& a, const
             {Aspect::form,
              std::string(formNameOf(inputA.encoded)).append(" and ").append(formNameOf(inputB.encoded)),
              a.bvh.nodeCount()});
+    add(costsDifference(inputA.costs, inputB.costs));
     if (a.topology[0] == b.topology[0]) {
         add(orderDifference(a, b));
         add(boxDifference(a, b));
@@ -206,7 +218,7 @@ double largestShift(const SharedArray<Vec3>& a, const SharedArray<Vec3>& b) {
 }  // namespace
 
 std::string_view nameOf(Aspect aspect) {
-    constexpr std::string_view kNames[] = {"form", "order", "boxes", "topology", "geometry"};
+    constexpr std::string_view kNames[] = {"form", "costs", "order", "boxes", "topology", "geometry"};
     return kNames[size_t(aspect)];
 }
 

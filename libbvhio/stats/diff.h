@@ -13,10 +13,11 @@ namespace bvhio {
 
 /// Where two files can differ, from harmless to grave. Each tells its own story:
 /// form: nodes are stored in different forms.
+/// costs: the trees were built for other SAH costs.
 /// order: nodes, siblings or the triangles in leaves lie in another order, which is all that a relayout may
 /// change. boxes: the same grouping of triangles in other boxes. Only looked at where the topologies are
 /// equal. topology: triangles are grouped otherwise. geometry: vertices, triangles or their ids.
-enum class Aspect { form, order, boxes, topology, geometry };
+enum class Aspect { form, costs, order, boxes, topology, geometry };
 std::string_view nameOf(Aspect aspect);
 
 struct Difference {

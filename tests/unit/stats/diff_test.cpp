@@ -47,6 +47,17 @@ TEST(Diff, findsNothingBetweenEqualFiles) {
     EXPECT_EQ(report["a"], report["b"]);
 }
 
+// Passes judge trees by the costs in the file: with other ones they make other trees.
+TEST(Diff, findsOtherCostsOfTheSameTree) {
+    const Sample a;
+    DiffSide b = a.side();
+    b.costs.traversal = 2;
+    const std::vector<Difference> found = differences(a.side(), b);
+    ASSERT_EQ(aspects(found), std::vector{Aspect::costs});
+    EXPECT_EQ(found[0].first, "traversal cost: 1.2 and 2");
+    EXPECT_EQ(found[0].count, 1u);
+}
+
 TEST(Diff, callsARelayoutAnotherOrderAndNothingElse) {
     const Sample a;
     for (uint64_t seed = 1; seed <= 5; ++seed) {

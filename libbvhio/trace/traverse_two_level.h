@@ -101,46 +101,49 @@ HWY_NOINLINE bool traverseInstance(uint32_t number, const Blases& blases, const 
                         source.of(local), local, within, metrics);
 }
 
-/// Visits leaves of a top level over instances.
-template <class Tlas, class Blases, class Source, class Query, class Metrics>
+/// Visits leaves of a top level over instances. What form meshes' trees are in is asked at each: so there is
+/// one loop for each form of the top level, not one for each pair of forms.
+template <class Tlas, class Source, class Query, class Metrics>
 struct TraverseInstance {
     const Tlas& tlas;
-    const Blases& blases;
-    const PlacedBlases& placed;
+    const TwoLevelForm& form;
     const Source& source;
     const PreparedRay& ray;
     Query& query;
     Metrics& metrics;
 
     HWY_INLINE bool operator()(const Entered<typename Tlas::Cursor>& leaf) const {
-        return traverseInstance(tlas.primitiveRange(leaf.cursor).first, blases, placed, source, ray, query,
-                                metrics);
+        const uint32_t number = tlas.primitiveRange(leaf.cursor).first;
+        return std::visit(
+            [&](const auto& blases) {
+                return traverseInstance(number, blases, form.placed(), source, ray, query, metrics);
+            },
+            form.blases());
     }
 };
 
-template <class Tlas, class Blases, class Source, class Query, class Metrics>
-HWY_NOINLINE void traverseInstances(const Tlas& tlas, const Blases& blases, const PlacedBlases& placed,
-                                    const Source& source, const PreparedRay& ray, Query& query,
-                                    Metrics& metrics) {
+template <class Tlas, class Source, class Query, class Metrics>
+HWY_NOINLINE void traverseInstances(const Tlas& tlas, const TwoLevelForm& form, const Source& source,
+                                    const PreparedRay& ray, Query& query, Metrics& metrics) {
     const typename Tlas::Ray tlasRay = tlas.prepare(ray);
     Entered<typename Tlas::Cursor> root;
     if (!tlas.enterRoot(tlasRay, query.boxLimit(), root, metrics)) return;
     MetricsBehind<Metrics> behind{metrics, tlas.form().nodeBytes()};
     traverseFrom(tlas, root, tlasRay, query, metrics,
-                 TraverseInstance<Tlas, Blases, Source, Query, MetricsBehind<Metrics>>{
-                     tlas, blases, placed, source, ray, query, behind});
+                 TraverseInstance<Tlas, Source, Query, MetricsBehind<Metrics>>{tlas, form, source, ray, query,
+                                                                               behind});
 }
 
 template <class Source, class Query, class Metrics>
 HWY_INLINE void traverse(const TwoLevelForm& form, const Source& source, const PreparedRay& ray, Query& query,
                          Metrics& metrics) {
-    std::visit(
-        [&](const auto& tlas, const auto& blases) {
-            if (form.isInstanced())
-                return traverseInstances(tlas, blases, form.placed(), source, ray, query, metrics);
-            traverseLevels(tlas, blases, source, ray, query, metrics);
-        },
-        form.tlas(), form.blases());
+    if (form.isInstanced())
+        return std::visit(
+            [&](const auto& tlas) { traverseInstances(tlas, form, source, ray, query, metrics); },
+            form.tlas());
+    std::visit([&](const auto& tlas,
+                   const auto& blases) { traverseLevels(tlas, blases, source, ray, query, metrics); },
+               form.tlas(), form.blases());
 }
 
 }  // namespace bvhio::HWY_NAMESPACE

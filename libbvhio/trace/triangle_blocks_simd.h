@@ -19,6 +19,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
+// In each loop that tests triangles; but not in builds with sanitizers, whose checks make copies of it long
+// to compile.
+#undef BVHIO_INLINE_TEST
+#ifdef BVHIO_SANITIZED
+#define BVHIO_INLINE_TEST HWY_NOINLINE
+#else
+#define BVHIO_INLINE_TEST HWY_INLINE
+#endif
+
 /// The source of triangles for one ray.
 class BlockTriangles {
     // Four lanes; one on the most basic processors.
@@ -39,7 +48,7 @@ class BlockTriangles {
     HWY_INLINE BlockTriangles of(const PreparedRay& ray) const { return {blocks_, ray}; }
 
     template <class Query>
-    HWY_INLINE bool test(PrimitiveRange range, const PreparedRay& ray, Query& query) const {
+    BVHIO_INLINE_TEST bool test(PrimitiveRange range, const PreparedRay& ray, Query& query) const {
         const float* const block = blocks_.block(range.first);
         for (uint32_t first = 0; first < range.count; first += 4) {
             uint32_t lanes = candidates(block + first, range.count, ray);

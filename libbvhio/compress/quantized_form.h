@@ -161,37 +161,33 @@ class QuantizedForm {
         return record;
     }
 
-    /// The children's boxes as the ray sees them. Whatever does not need `box` is done first: a ray going
-    /// down waits for one box after the other.
+    /// The children's boxes as the ray sees them.
     BVHIO_INLINE void placeChildren(const QuantizedRecord& record, const PlacedBox& box, PlacedBox& left,
                                     PlacedBox& right) const {
-        const Four size = RayFrame::size(box);
+        Four mins, maxs;
+        FourBits minHead, maxHead;  // bytes 0 to 3 and 4 to 7, in all lanes
 #if defined(__SSE2__)
         const __m128i zero = _mm_setzero_si128();
         const __m128i raw = _mm_load_si128(reinterpret_cast<const __m128i*>(&record));
         const __m128i words = _mm_unpacklo_epi8(raw, zero);
         // Lane 3 becomes some number, times a size of 0.
-        const Four ofMin = Four(_mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero))) * stepOfSize_;
-        const Four ofMax = Four(_mm_cvtepi32_ps(_mm_unpackhi_epi16(words, zero))) * stepOfSize_;
-        const __m128i owners = _mm_setr_epi32(1 << 24, 1 << 25, 1 << 26, 0);
-        const auto areRights = [&](__m128i fourTimes) {
-            return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_and_si128(fourTimes, owners), owners));
-        };
-        const __m128 minIsRights = areRights(_mm_shuffle_epi32(raw, 0x00));
-        const __m128 maxIsRights = areRights(_mm_shuffle_epi32(raw, 0x55));
-        left.min = box.min + Four(_mm_andnot_ps(minIsRights, __m128(ofMin))) * size;
-        left.max = box.max - Four(_mm_andnot_ps(maxIsRights, __m128(ofMax))) * size;
-        right.min = box.min + Four(_mm_and_ps(minIsRights, __m128(ofMin))) * size;
-        right.max = box.max - Four(_mm_and_ps(maxIsRights, __m128(ofMax))) * size;
+        mins = Four(_mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero)));
+        maxs = Four(_mm_cvtepi32_ps(_mm_unpackhi_epi16(words, zero)));
+        minHead = FourBits(_mm_shuffle_epi32(raw, 0x00));
+        maxHead = FourBits(_mm_shuffle_epi32(raw, 0x55));
 #else
-        left = right = box;
-        for (uint32_t axis = 0; axis < 3; ++axis) {
-            (record.isRights(axis) ? right : left).min[axis] +=
-                float(record.inset(axis)) * stepOfSize_ * size[axis];
-            (record.isRights(axis + 3) ? right : left).max[axis] -=
-                float(record.inset(axis + 3)) * stepOfSize_ * size[axis];
-        }
+        const auto insets = [&](uint32_t side) {
+            return Four{float(record.inset(side)), float(record.inset(side + 1)),
+                        float(record.inset(side + 2)), 0};
+        };
+        mins = insets(0);
+        maxs = insets(3);
+        minHead = FourBits{} + int32_t(uint32_t(record.bytes[3]) << 24);
+        maxHead = FourBits{} + int32_t(uint32_t(record.bytes[7]) << 24);
 #endif
+        const FourBits owners{1 << 24, 1 << 25, 1 << 26, 0};
+        placeSiblings(box, mins * stepOfSize_, maxs * stepOfSize_, (minHead & owners) == owners,
+                      (maxHead & owners) == owners, left, right);
     }
 
     Aabb bounds_;

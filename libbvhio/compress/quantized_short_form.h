@@ -16,10 +16,6 @@
 #include "compress/inset_box.h"
 #include "compress/ray_frame.h"
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 namespace bvhio {
 
 /// What a slot holds; 8 bytes, plain data, stored as is in files (format-spec/quantized-short.md).
@@ -190,32 +186,14 @@ class QuantizedShortForm {
     /// number n 2^k is exact, and so is its product with 2^-(6 + k).
     BVHIO_INLINE void placeChildren(const ShortRecord& record, const PlacedBox& box, PlacedBox& left,
                                     PlacedBox& right) const {
-        const Four size = RayFrame::size(box);
-#if defined(__SSE2__)
-        const __m128i raw = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(record.words()));
-        const __m128i insets = _mm_setr_epi32(63, 63 << 6, 63 << 12, 0);
-        const __m128i owners = _mm_setr_epi32(1 << 18, 1 << 19, 1 << 20, 0);
+        const FourBits insets{63, 63 << 6, 63 << 12, 0};
+        const FourBits owners{1 << 18, 1 << 19, 1 << 20, 0};
         const Four unit{0x1p-6f, 0x1p-12f, 0x1p-18f, 0};
-        const __m128i mins = _mm_shuffle_epi32(raw, 0x00), maxs = _mm_shuffle_epi32(raw, 0x55);
-        const Four ofMin = Four(_mm_cvtepi32_ps(_mm_and_si128(mins, insets))) * unit;
-        const Four ofMax = Four(_mm_cvtepi32_ps(_mm_and_si128(maxs, insets))) * unit;
-        const auto areRights = [&](__m128i words) {
-            return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_and_si128(words, owners), owners));
-        };
-        const __m128 minIsRights = areRights(mins), maxIsRights = areRights(maxs);
-        left.min = box.min + Four(_mm_andnot_ps(minIsRights, __m128(ofMin))) * size;
-        left.max = box.max - Four(_mm_andnot_ps(maxIsRights, __m128(ofMax))) * size;
-        right.min = box.min + Four(_mm_and_ps(minIsRights, __m128(ofMin))) * size;
-        right.max = box.max - Four(_mm_and_ps(maxIsRights, __m128(ofMax))) * size;
-#else
-        left = right = box;
-        for (uint32_t axis = 0; axis < 3; ++axis) {
-            (record.isRights(axis) ? right : left).min[axis] +=
-                float(record.inset(axis)) * 0x1p-6f * size[axis];
-            (record.isRights(axis + 3) ? right : left).max[axis] -=
-                float(record.inset(axis + 3)) * 0x1p-6f * size[axis];
-        }
-#endif
+        const FourBits mins = FourBits{} + int32_t(record.words()[0]);
+        const FourBits maxs = FourBits{} + int32_t(record.words()[1]);
+        placeSiblings(box, __builtin_convertvector(mins & insets, Four) * unit,
+                      __builtin_convertvector(maxs & insets, Four) * unit, (mins & owners) == owners,
+                      (maxs & owners) == owners, left, right);
     }
 
     Aabb bounds_;

@@ -54,6 +54,7 @@ namespace bvhio {
 
 /// Lanes x, y, z and one more.
 using Four = float __attribute__((vector_size(16)));
+using FourBits = int32_t __attribute__((vector_size(16)));
 
 /// As the processor's instructions: b where either is a NaN.
 BVHIO_INLINE Four min(Four a, Four b) {
@@ -76,6 +77,32 @@ BVHIO_INLINE Four max(Four a, Four b) {
 struct PlacedBox {
     Four min, max;
 };
+
+/// `of` in the lanes whose bits are all set in the mask, 0 in the others; and the reverse.
+BVHIO_INLINE Four where(FourBits mask, Four of) {
+    return Four(FourBits(of) & mask);
+}
+BVHIO_INLINE Four exceptWhere(FourBits mask, Four of) {
+#if defined(__SSE__)
+    return Four(_mm_andnot_ps(__m128(mask), __m128(of)));  // g++ makes a slow blend of the other
+#else
+    return Four(FourBits(of) & ~mask);
+#endif
+}
+
+/// The boxes of two siblings that share the planes of their parent's `box`: the fractions of its size say how
+/// far those that move lie inside it, the masks whose they are: set for the right one's. The other one keeps
+/// the parent's. Whatever does not need `box` is done first: a ray going down waits for one box after the
+/// other.
+BVHIO_INLINE void placeSiblings(const PlacedBox& box, Four minFractions, Four maxFractions,
+                                FourBits minIsRights, FourBits maxIsRights, PlacedBox& left,
+                                PlacedBox& right) {
+    const Four size = box.max - box.min;
+    left.min = box.min + exceptWhere(minIsRights, minFractions) * size;
+    left.max = box.max - exceptWhere(maxIsRights, maxFractions) * size;
+    right.min = box.min + where(minIsRights, minFractions) * size;
+    right.max = box.max - where(maxIsRights, maxFractions) * size;
+}
 
 /// Which of two boxes a ray enters.
 struct EnteredOfTwo {
@@ -124,7 +151,7 @@ class RayFrame {
         const Four farther = max(max(first, -first), max(last, -last));
         regular_ = areAll((length >= 1 / kFar) & (length <= kFar) & (farther <= kFar));
         if (regular_)
-            shift(first, last, Four((Bits(direction) & kSign) | Bits(marginOf(farther))), ray.tMin);
+            shift(first, last, Four((FourBits(direction) & kSign) | FourBits(marginOf(farther))), ray.tMin);
         else
             setIrregular(lower, upper);
     }
@@ -210,15 +237,14 @@ class RayFrame {
     }
 
   private:
-    using Bits = int32_t __attribute__((vector_size(16)));
-    static constexpr Bits kSign{INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN};
+    static constexpr FourBits kSign{INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN};
     static constexpr float kFar = 0x1p100f;
     static_assert(kMaxDepth <= 96, "the margin is for 96 steps");
 
     static BVHIO_INLINE Four marginOf(Four farther) {
         return farther * 0x1p-17f + 0x1p-120f;
     }
-    static BVHIO_INLINE bool areAll(Bits lanes) {
+    static BVHIO_INLINE bool areAll(FourBits lanes) {
 #if defined(__SSE__)
         return _mm_movemask_ps(__m128(lanes)) == 15;
 #else

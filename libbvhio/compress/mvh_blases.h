@@ -145,7 +145,7 @@ class MvhTree {
         metrics.boxesTested(1, BoxTestCost{16, 12});
         const uint32_t codes = codes_[at];
         const PlacedBox& box = from.cursor.box;
-        const Four size = RayFrame::size(box);
+        const Four size = box.size();
         const PlacedBox left = cut(box, size, kMvhMoves[codes & 15]),
                         right = cut(box, size, kMvhMoves[codes >> 4]);
         const EnteredOfTwo found = ray.clip(left, right, tLimit);

@@ -19,9 +19,6 @@
 
 namespace bvhio {
 
-/// Four lanes of whole numbers, or masks: -1 is true.
-using FourInts = int32_t __attribute__((vector_size(16)));
-
 /// What steps look up, by the rule alone: one for all trees that share it.
 class MvhTables {
   public:

@@ -165,7 +165,7 @@ class QuantizedForm {
     BVHIO_INLINE void placeChildren(const QuantizedRecord& record, const PlacedBox& box, PlacedBox& left,
                                     PlacedBox& right) const {
         Four mins, maxs;
-        FourBits minHead, maxHead;  // bytes 0 to 3 and 4 to 7, in all lanes
+        FourInts minHead, maxHead;  // bytes 0 to 3 and 4 to 7, in all lanes
 #if defined(__SSE2__)
         const __m128i zero = _mm_setzero_si128();
         const __m128i raw = _mm_load_si128(reinterpret_cast<const __m128i*>(&record));
@@ -173,8 +173,8 @@ class QuantizedForm {
         // Lane 3 becomes some number, times a size of 0.
         mins = Four(_mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero)));
         maxs = Four(_mm_cvtepi32_ps(_mm_unpackhi_epi16(words, zero)));
-        minHead = FourBits(_mm_shuffle_epi32(raw, 0x00));
-        maxHead = FourBits(_mm_shuffle_epi32(raw, 0x55));
+        minHead = FourInts(_mm_shuffle_epi32(raw, 0x00));
+        maxHead = FourInts(_mm_shuffle_epi32(raw, 0x55));
 #else
         const auto insets = [&](uint32_t side) {
             return Four{float(record.inset(side)), float(record.inset(side + 1)),
@@ -182,10 +182,10 @@ class QuantizedForm {
         };
         mins = insets(0);
         maxs = insets(3);
-        minHead = FourBits{} + int32_t(uint32_t(record.bytes[3]) << 24);
-        maxHead = FourBits{} + int32_t(uint32_t(record.bytes[7]) << 24);
+        minHead = FourInts{} + int32_t(uint32_t(record.bytes[3]) << 24);
+        maxHead = FourInts{} + int32_t(uint32_t(record.bytes[7]) << 24);
 #endif
-        const FourBits owners{1 << 24, 1 << 25, 1 << 26, 0};
+        const FourInts owners{1 << 24, 1 << 25, 1 << 26, 0};
         placeSiblings(box, mins * stepOfSize_, maxs * stepOfSize_, (minHead & owners) == owners,
                       (maxHead & owners) == owners, left, right);
     }

@@ -186,11 +186,11 @@ class QuantizedShortForm {
     /// number n 2^k is exact, and so is its product with 2^-(6 + k).
     BVHIO_INLINE void placeChildren(const ShortRecord& record, const PlacedBox& box, PlacedBox& left,
                                     PlacedBox& right) const {
-        const FourBits insets{63, 63 << 6, 63 << 12, 0};
-        const FourBits owners{1 << 18, 1 << 19, 1 << 20, 0};
+        const FourInts insets{63, 63 << 6, 63 << 12, 0};
+        const FourInts owners{1 << 18, 1 << 19, 1 << 20, 0};
         const Four unit{0x1p-6f, 0x1p-12f, 0x1p-18f, 0};
-        const FourBits mins = FourBits{} + int32_t(record.words()[0]);
-        const FourBits maxs = FourBits{} + int32_t(record.words()[1]);
+        const FourInts mins = FourInts{} + int32_t(record.words()[0]);
+        const FourInts maxs = FourInts{} + int32_t(record.words()[1]);
         placeSiblings(box, __builtin_convertvector(mins & insets, Four) * unit,
                       __builtin_convertvector(maxs & insets, Four) * unit, (mins & owners) == owners,
                       (maxs & owners) == owners, left, right);

@@ -54,7 +54,8 @@ namespace bvhio {
 
 /// Lanes x, y, z and one more.
 using Four = float __attribute__((vector_size(16)));
-using FourBits = int32_t __attribute__((vector_size(16)));
+/// The same of whole numbers, or masks: -1 is true.
+using FourInts = int32_t __attribute__((vector_size(16)));
 
 /// As the processor's instructions: b where either is a NaN.
 BVHIO_INLINE Four min(Four a, Four b) {
@@ -76,17 +77,20 @@ BVHIO_INLINE Four max(Four a, Four b) {
 /// ray's own start in both.
 struct PlacedBox {
     Four min, max;
+
+    /// How far the planes lie apart; negative where the ray goes down an axis, 0 in lane 3.
+    BVHIO_INLINE Four size() const { return max - min; }
 };
 
 /// `of` in the lanes whose bits are all set in the mask, 0 in the others; and the reverse.
-BVHIO_INLINE Four where(FourBits mask, Four of) {
-    return Four(FourBits(of) & mask);
+BVHIO_INLINE Four where(FourInts mask, Four of) {
+    return Four(FourInts(of) & mask);
 }
-BVHIO_INLINE Four exceptWhere(FourBits mask, Four of) {
+BVHIO_INLINE Four exceptWhere(FourInts mask, Four of) {
 #if defined(__SSE__)
     return Four(_mm_andnot_ps(__m128(mask), __m128(of)));  // g++ makes a slow blend of the other
 #else
-    return Four(FourBits(of) & ~mask);
+    return Four(FourInts(of) & ~mask);
 #endif
 }
 
@@ -95,9 +99,9 @@ BVHIO_INLINE Four exceptWhere(FourBits mask, Four of) {
 /// the parent's. Whatever does not need `box` is done first: a ray going down waits for one box after the
 /// other.
 BVHIO_INLINE void placeSiblings(const PlacedBox& box, Four minFractions, Four maxFractions,
-                                FourBits minIsRights, FourBits maxIsRights, PlacedBox& left,
+                                FourInts minIsRights, FourInts maxIsRights, PlacedBox& left,
                                 PlacedBox& right) {
-    const Four size = box.max - box.min;
+    const Four size = box.size();
     left.min = box.min + exceptWhere(minIsRights, minFractions) * size;
     left.max = box.max - exceptWhere(maxIsRights, maxFractions) * size;
     right.min = box.min + where(minIsRights, minFractions) * size;
@@ -151,7 +155,7 @@ class RayFrame {
         const Four farther = max(max(first, -first), max(last, -last));
         regular_ = areAll((length >= 1 / kFar) & (length <= kFar) & (farther <= kFar));
         if (regular_)
-            shift(first, last, Four((FourBits(direction) & kSign) | FourBits(marginOf(farther))), ray.tMin);
+            shift(first, last, Four((FourInts(direction) & kSign) | FourInts(marginOf(farther))), ray.tMin);
         else
             setIrregular(lower, upper);
     }
@@ -178,9 +182,6 @@ class RayFrame {
         placed.min[3] = placed.max[3] = root_.min[3];
         return placed;
     }
-
-    /// How far a box's planes lie apart; negative where the ray goes down an axis, 0 in lane 3.
-    static BVHIO_INLINE Four size(const PlacedBox& box) { return box.max - box.min; }
 
     /// The part of a regular ray in the box, up to `tLimit`.
     BVHIO_INLINE RayInterval clipRegular(const PlacedBox& box, float tLimit) const {
@@ -237,14 +238,14 @@ class RayFrame {
     }
 
   private:
-    static constexpr FourBits kSign{INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN};
+    static constexpr FourInts kSign{INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN};
     static constexpr float kFar = 0x1p100f;
     static_assert(kMaxDepth <= 96, "the margin is for 96 steps");
 
     static BVHIO_INLINE Four marginOf(Four farther) {
         return farther * 0x1p-17f + 0x1p-120f;
     }
-    static BVHIO_INLINE bool areAll(FourBits lanes) {
+    static BVHIO_INLINE bool areAll(FourInts lanes) {
 #if defined(__SSE__)
         return _mm_movemask_ps(__m128(lanes)) == 15;
 #else

@@ -59,7 +59,7 @@ Ray randomRay(Random& random, const Aabb& bounds) {
 
 /// Takes one step in both spaces.
 void step(const InsetFrame& insets, const std::array<float, 6>& f, PlacedBox& placed, InsetBox& box) {
-    const Four size = RayFrame::size(placed);
+    const Four size = placed.size();
     placed.min = placed.min + Four{f[0], f[1], f[2], 1} * size;
     placed.max = placed.max - Four{f[3], f[4], f[5], 1} * size;
     for (int axis = 0; axis < 3; ++axis) {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "core/random.h"
+#include "common/random_tree.h"
 
 namespace bvhio {
 namespace {
@@ -16,12 +16,7 @@ std::vector<TreeItem> randomItems(uint32_t count, Random& random) {
     std::vector<TreeItem> items(count);
     items[0].weight = 100;
     for (uint32_t i = 1; i < count; ++i) {
-        uint32_t parent, side;
-        do {
-            parent = random.below(i);
-            side = random.below(2);
-        } while (items[parent].children[side] != TreeItem::kNone);
-        items[parent].children[side] = i;
+        const uint32_t parent = test::attachAtRandom(items, i, random);
         items[i].weight = items[parent].weight * double(random.below(5)) / 4;
     }
     return items;

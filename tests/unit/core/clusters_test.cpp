@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "build/builders.h"
+#include "common/random_tree.h"
 #include "common/test_scenes.h"
 #include "core/cluster_cuts.h"
 #include "unit/relayout/small_tree.h"
@@ -135,12 +136,7 @@ TEST(ClusterCuts, costTheLeastOfAllCuts) {
         std::vector<ClusterPair> pairs(1 + random.below(10));
         pairs[0].weight = 64;
         for (uint32_t p = 1; p < pairs.size(); ++p) {
-            uint32_t parent, side;
-            do {
-                parent = random.below(p);
-                side = random.below(2);
-            } while (pairs[parent].children[side] != ClusterPair::kNone);
-            pairs[parent].children[side] = p;
+            const uint32_t parent = test::attachAtRandom(pairs, p, random);
             pairs[p].weight = pairs[parent].weight * double(1 + random.below(4)) / 4;
         }
         const ClusterLimits limits{4 + random.below(3), 1000, 1u << random.below(3)};

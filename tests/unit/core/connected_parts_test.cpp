@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "core/random.h"
+#include "common/random_tree.h"
 
 namespace bvhio {
 namespace {
@@ -15,12 +15,7 @@ std::vector<TreeItem> randomTree(uint32_t count, uint64_t seed) {
     std::vector<TreeItem> items(count);
     items[0].weight = 1000;
     for (uint32_t i = 1; i < count; ++i) {
-        uint32_t parent, side;
-        do {
-            parent = random.below(i);
-            side = random.below(2);
-        } while (items[parent].children[side] != TreeItem::kNone);
-        items[parent].children[side] = i;
+        const uint32_t parent = test::attachAtRandom(items, i, random);
         items[i].weight = double(random.below(uint32_t(items[parent].weight) + 1));
     }
     return items;

@@ -8,7 +8,7 @@
 #include "common/run_tool.h"
 #include "common/useless_options.h"
 #include "file/form_chunks.h"
-#include "scene/import.h"
+#include "importers/import.h"
 #include "scene/moved_scene.h"
 
 using namespace bvhio;

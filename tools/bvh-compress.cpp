@@ -5,7 +5,7 @@
 #include "common/pass.h"
 #include "common/run_tool.h"
 #include "compress/exact_boxes.h"
-#include "file/codecs.h"
+#include "container/codecs.h"
 #include "scene/scene_order.h"
 
 using namespace bvhio;

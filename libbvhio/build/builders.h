@@ -3,11 +3,11 @@
 
 #include <span>
 
-#include "core/bvh.h"
 #include "core/choice.h"
 #include "core/progress.h"
-#include "core/sah_cost.h"
 #include "scene/scene.h"
+#include "tree/bvh.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 

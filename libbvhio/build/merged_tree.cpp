@@ -6,8 +6,8 @@
 
 #include <utility>
 
-#include "core/collapse.h"
 #include "core/parallel.h"
+#include "tree/collapse.h"
 
 namespace bvhio {
 

@@ -18,8 +18,8 @@
 #include "build/merged_tree.h"
 #include "build/morton.h"
 #include "build/ploc_search.h"
-#include "core/depth.h"
 #include "core/parallel.h"
+#include "tree/depth.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "build/ploc.cpp"

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/buffer.h"
-#include "core/bvh.h"
 #include "core/parallel.h"
 #include "scene/scene.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "build/reference.h"
-#include "core/bvh.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 

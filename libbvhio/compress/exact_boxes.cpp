@@ -5,7 +5,7 @@
 
 #include "core/clip_triangle.h"
 #include "core/parallel.h"
-#include "core/refit.h"
+#include "tree/refit.h"
 
 namespace bvhio {
 namespace {

@@ -1,8 +1,8 @@
 // The tree that a form's larger boxes stand for.
 #pragma once
 
-#include "core/bvh.h"
 #include "scene/scene.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <string_view>
 
-#include "core/bvh.h"
 #include "core/intersect.h"
 #include "scene/scene.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 
@@ -30,7 +30,8 @@ struct BoxTestCost {
     uint32_t arithmetic, comparisons;
 };
 
-/// The metrics policy that is free: each call vanishes. Others are in trace/metrics.h and trace/locality.h.
+/// The metrics policy that is free: each call vanishes. Others are in metrics/metrics.h and
+/// metrics/locality.h.
 struct NoMetrics {
     BVHIO_INLINE void recordFetched(size_t, size_t) {}       // byte offset among the form's nodes, bytes
     BVHIO_INLINE void boxesTested(uint32_t, BoxTestCost) {}  // how many boxes, the cost of each

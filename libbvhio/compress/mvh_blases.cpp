@@ -5,7 +5,7 @@
 #include "core/buffer.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/sah_cost.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 

@@ -8,7 +8,7 @@
 #endif
 
 #include "core/parallel.h"
-#include "core/sah_cost.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 namespace {

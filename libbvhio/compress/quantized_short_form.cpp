@@ -6,8 +6,8 @@
 #include "compress/divide_leaves.h"
 #include "compress/inset_grid.h"
 #include "core/buffer.h"
-#include "core/clusters.h"
 #include "core/error.h"
+#include "tree/clusters.h"
 
 namespace bvhio {
 namespace {

@@ -47,8 +47,8 @@
 #include <limits>
 
 #include "compress/form_concept.h"
-#include "core/bvh.h"
 #include "core/intersect.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 

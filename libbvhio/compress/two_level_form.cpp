@@ -6,8 +6,8 @@
 #include "compress/divide_leaves.h"
 #include "compress/forest.h"
 #include "core/buffer.h"
-#include "core/depth.h"
 #include "core/error.h"
+#include "tree/depth.h"
 
 namespace bvhio {
 namespace {

@@ -1,7 +1,7 @@
 // A canonical tree cut into a top level and many small trees, and joined again.
 #pragma once
 
-#include "core/bvh.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 

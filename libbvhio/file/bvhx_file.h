@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "compress/forms.h"
-#include "core/sah_cost.h"
 #include "scene/scene.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 

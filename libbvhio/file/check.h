@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "container/container.h"
 #include "core/findings.h"
-#include "file/container.h"
 
 namespace bvhio {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "container/container.h"
 #include "file/bvhx_file.h"
-#include "file/container.h"
 
 namespace bvhio {
 

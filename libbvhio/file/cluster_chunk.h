@@ -1,8 +1,8 @@
 // The chunk CLUS beside an aabb tree, which says how its pairs lie in clusters: format-spec/clusters.md.
 #pragma once
 
-#include "core/bvh.h"
 #include "file/chunks.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 

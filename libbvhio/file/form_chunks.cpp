@@ -3,7 +3,6 @@
 #include <cmath>
 #include <type_traits>
 
-#include "core/refit.h"
 #include "file/aabb_chunks.h"
 #include "file/mvh_chunks.h"
 #include "file/quantized_chunks.h"
@@ -11,6 +10,7 @@
 #include "file/scene_chunks.h"
 #include "file/ssh_chunks.h"
 #include "file/two_level_chunks.h"
+#include "tree/refit.h"
 
 namespace bvhio {
 namespace {

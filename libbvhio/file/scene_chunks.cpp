@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "file/instance_chunks.h"
 #include "file/utf8.h"
-#include "scene/draco_mesh.h"
+#include "importers/draco_mesh.h"
 #include "scene/scene_order.h"
 
 namespace bvhio {

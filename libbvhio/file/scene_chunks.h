@@ -1,9 +1,9 @@
 // The chunks of a scene (format-spec/chunks.md 2 to 6), and the check of what they hold.
 #pragma once
 
-#include "core/validate.h"
 #include "file/chunks.h"
 #include "scene/scene.h"
+#include "tree/validate.h"
 
 namespace bvhio {
 

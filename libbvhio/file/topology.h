@@ -3,8 +3,8 @@
 // refit gives are stored as exceptions.
 #pragma once
 
-#include "core/validate.h"
 #include "file/tree_chunks.h"
+#include "tree/validate.h"
 
 namespace bvhio {
 

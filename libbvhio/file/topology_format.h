@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/bvh.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 

@@ -4,10 +4,10 @@
 
 #include "core/buffer.h"
 #include "core/bytes.h"
-#include "core/refit.h"
 #include "file/scene_chunks.h"
 #include "file/topology.h"
 #include "file/topology_format.h"
+#include "tree/refit.h"
 
 namespace bvhio {
 namespace {

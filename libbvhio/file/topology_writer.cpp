@@ -1,9 +1,9 @@
 #include <bit>
 
 #include "core/bytes.h"
-#include "core/refit.h"
 #include "file/topology.h"
 #include "file/topology_format.h"
+#include "tree/refit.h"
 
 namespace bvhio {
 namespace {

@@ -1,7 +1,7 @@
 #include "file/tree_chunks.h"
 
-#include "core/validate.h"
 #include "file/scene_chunks.h"
+#include "tree/validate.h"
 
 namespace bvhio {
 

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "core/bytes.h"
-#include "core/depth.h"
 #include "file/chunks.h"
+#include "tree/depth.h"
 
 namespace bvhio {
 
@@ -18,7 +18,7 @@ struct TreeParameters {
     uint32_t depth = 0;
 };
 
-/// Checks a tree that was read, boxes as its form reconstructs them, against every rule of core/bvh.h. Its
+/// Checks a tree that was read, boxes as its form reconstructs them, against every rule of tree/bvh.h. Its
 /// nodes are records of `nodeSize` bytes from `nodesOffset` on, in a chunk of this type.
 void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
                uint64_t nodesOffset, size_t nodeSize, uint32_t chunk = kNodesType);

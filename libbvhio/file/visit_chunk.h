@@ -1,8 +1,8 @@
 // The chunk of visits (format-spec/visits.md).
 #pragma once
 
-#include "core/bvh.h"
 #include "file/chunks.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 

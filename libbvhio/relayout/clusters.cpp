@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/clusters.h"
+#include "tree/clusters.h"
 
 namespace bvhio {
 namespace {

@@ -1,4 +1,4 @@
-// Clusters for records with short pointers (core/clusters.h has the paper and the method): the order of pairs
+// Clusters for records with short pointers (tree/clusters.h has the paper and the method): the order of pairs
 // is the order of their records' slots.
 #pragma once
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/bvh.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 

@@ -1,5 +1,5 @@
 // Ours. Connected clusters of at most a page, and in each connected clusters of at most a line, both chosen
-// so that rays enter as few as possible (core/connected_parts.h). Pages follow each other depth first,
+// so that rays enter as few as possible (tree/connected_parts.h). Pages follow each other depth first,
 // the likeliest at once; of the lines in a page the likeliest whose parent is placed is next.
 //
 // There is no room to waste: pairs follow each other without gaps, so a line that is not full would push all
@@ -14,8 +14,8 @@
 #include <queue>
 #include <set>
 
-#include "core/connected_parts.h"
 #include "relayout/pair_tree.h"
+#include "tree/connected_parts.h"
 
 namespace bvhio {
 namespace {

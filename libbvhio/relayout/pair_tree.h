@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "core/connected_parts.h"
 #include "relayout/node_order.h"
 #include "relayout/pair_weights.h"
+#include "tree/connected_parts.h"
 
 namespace bvhio {
 

@@ -8,7 +8,7 @@
 
 namespace bvhio {
 
-/// Moves subtrees of a tree one by one where that lowers the cost that core/collapse.h would reach. A node
+/// Moves subtrees of a tree one by one where that lowers the cost that tree/collapse.h would reach. A node
 /// with few enough references for a leaf counts with the cheaper of both, so it has its cost stored; of those
 /// above, which stay inner nodes, only areas matter.
 class SubtreeMoves {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/collapse.h"
 #include "core/parallel.h"
+#include "tree/collapse.h"
 
 namespace bvhio {
 namespace {

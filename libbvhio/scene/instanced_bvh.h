@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "core/bvh.h"
 #include "scene/scene.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 

@@ -6,8 +6,8 @@
 
 #include "compress/forms.h"
 #include "core/report.h"
-#include "core/sah_cost.h"
 #include "scene/scene.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 

@@ -1,9 +1,9 @@
 // End-point overlap: how much of the scene's surface lies in boxes that it was not put into.
 #pragma once
 
-#include "core/bvh.h"
-#include "core/sah_cost.h"
 #include "scene/scene.h"
+#include "tree/bvh.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 

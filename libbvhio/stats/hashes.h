@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/bvh.h"
 #include "scene/scene.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 

@@ -1,7 +1,7 @@
 #include "stats/slack.h"
 
 #include "compress/exact_boxes.h"
-#include "core/depth.h"
+#include "tree/depth.h"
 
 namespace bvhio {
 namespace {

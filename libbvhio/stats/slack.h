@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "core/bvh.h"
 #include "core/report.h"
-#include "core/sah_cost.h"
 #include "scene/scene.h"
+#include "tree/bvh.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <string>
 
-#include "core/depth.h"
+#include "tree/depth.h"
 
 namespace bvhio {
 namespace {

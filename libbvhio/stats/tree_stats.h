@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "compress/forms.h"
-#include "core/bvh.h"
 #include "core/report.h"
-#include "core/sah_cost.h"
+#include "tree/bvh.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 

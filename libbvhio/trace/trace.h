@@ -6,9 +6,9 @@
 #include <span>
 
 #include "compress/forms.h"
-#include "trace/fetches.h"
-#include "trace/locality.h"
-#include "trace/metrics.h"
+#include "metrics/fetches.h"
+#include "metrics/locality.h"
+#include "metrics/metrics.h"
 #include "trace/node_storage.h"
 #include "trace/triangle_blocks.h"
 

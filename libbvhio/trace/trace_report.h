@@ -7,7 +7,7 @@
 namespace bvhio {
 
 /// Adds the keys NC LC TC AOC AOC_arithmetic AOC_comparisons BLB LCV records SOC SBL LJC{T} CMC{T} WSS{T}, as
-/// trace/metrics.h and trace/locality.h define them: per ray where they say so.
+/// metrics/metrics.h and metrics/locality.h define them: per ray where they say so.
 void addTo(Report& report, const TraceMeasurement& measurement);
 
 }  // namespace bvhio

@@ -1,7 +1,7 @@
 // The traversal loop: one for every form, source of triangles, query and metrics policy.
 //
 // It is compiled several times, once for each kind of processor (Highway's per-target inclusion, see
-// trace/trace_blocks.cpp), so it lives in Highway's namespace for the target and has an include guard that
+// trace/trace_blocks_simd.h), so it lives in Highway's namespace for the target and has an include guard that
 // toggles.
 //
 // A source tests the triangles of a leaf: `source.test(range, ray, query)` offers hits to the query and

@@ -9,7 +9,7 @@
 #endif
 
 #include "compress/two_level_form.h"
-#include "trace/metrics.h"
+#include "metrics/metrics.h"
 #include "trace/traverse.h"
 
 HWY_BEFORE_NAMESPACE();

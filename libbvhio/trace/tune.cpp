@@ -9,7 +9,7 @@
 
 #include "compress/forms.h"
 #include "core/parallel.h"
-#include "trace/ray_sets.h"
+#include "rays/ray_sets.h"
 #include "trace/trace.h"
 
 namespace bvhio {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "compress/candidates.h"
-#include "core/bvh.h"
 #include "core/progress.h"
 #include "scene/scene.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
 
@@ -25,7 +25,7 @@ struct TunedEncoding {
     EncodingCandidate candidate;
     uint64_t nodeBytes = 0;  // in memory
     double bytesPerPrimitive = 0;
-    double nc = 0, blb = 0;  // per ray of both sets, as in trace/metrics.h
+    double nc = 0, blb = 0;  // per ray of both sets, as in metrics/metrics.h
     double mraysPerSecond = 0;
     double slowdownPrimary = 1, slowdownDiffuse = 1;  // time over that of the aabb form
     double slowdown = 1;                              // their geometric mean

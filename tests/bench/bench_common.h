@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/import.h"
+#include "importers/import.h"
 
 namespace bvhio::bench {
 

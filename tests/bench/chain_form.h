@@ -8,7 +8,7 @@
 
 #include "common/form_options.h"
 #include "compress/forms.h"
-#include "trace/split.h"
+#include "core/split.h"
 
 namespace bvhio::bench {
 

@@ -25,7 +25,7 @@
 
 #include "chain.h"
 #include "core/parallel.h"
-#include "trace/ray_sets.h"
+#include "rays/ray_sets.h"
 #include "trace/trace.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// The invariants of core/bvh.h, checked by a walk that shares no code with core/validate.
+// The invariants of tree/bvh.h, checked by a walk that shares no code with tree/validate.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,12 +7,12 @@
 #include <cstring>
 #include <vector>
 
-#include "core/bvh.h"
 #include "scene/scene.h"
+#include "tree/bvh.h"
 
 namespace bvhio::test {
 
-/// Walks the tree and checks what core/bvh.h promises.
+/// Walks the tree and checks what tree/bvh.h promises.
 inline void expectValid(const Scene& scene, const Bvh& bvh, uint32_t maxLeafSize) {
     ASSERT_GE(bvh.nodes.size(), 2u);
     ASSERT_EQ(bvh.nodes.size() % 2, 0u);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/test_scenes.h"
-#include "scene/import.h"
+#include "importers/import.h"
 
 namespace bvhio::test {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "core/bvh.h"
 #include "core/random.h"
+#include "tree/bvh.h"
 
 namespace bvhio::test {
 

@@ -5,11 +5,11 @@
 #include <cstring>
 #include <sstream>
 
+#include "container/container.h"
+#include "container/digest.h"
 #include "core/hash.h"
 #include "file/bvhx_file.h"
 #include "file/check.h"
-#include "file/container.h"
-#include "file/digest.h"
 
 namespace {
 

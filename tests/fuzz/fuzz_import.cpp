@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/error.h"
-#include "scene/import.h"
+#include "importers/import.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     static constexpr const char* kNames[] = {"x", "x.obj", "x.stl", "x.ply", "x.gltf", "x.glb", "x.drc"};

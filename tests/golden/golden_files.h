@@ -8,8 +8,8 @@
 #include "build/instanced.h"
 #include "build/median.h"
 #include "common/shuffled_tree.h"
+#include "container/container.h"
 #include "file/bvhx_file.h"
-#include "file/container.h"
 #include "relayout/clusters.h"
 
 namespace bvhio {

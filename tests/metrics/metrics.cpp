@@ -5,12 +5,12 @@
 
 #include "build/builders.h"
 #include "common/test_scenes.h"
+#include "rays/ray_sets.h"
 #include "restructure/restructurers.h"
 #include "stats/hashes.h"
 #include "stats/size_stats.h"
 #include "stats/stats_report.h"
 #include "stats/tree_stats.h"
-#include "trace/ray_sets.h"
 #include "trace/trace.h"
 
 namespace bvhio {

@@ -1,4 +1,4 @@
-// Every builder, over awkward scenes and options: the invariants of core/bvh.h.
+// Every builder, over awkward scenes and options: the invariants of tree/bvh.h.
 #include "build/builders.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 
 #include "common/expect_valid.h"
 #include "common/test_scenes.h"
-#include "core/depth.h"
 #include "core/parallel.h"
+#include "tree/depth.h"
 
 namespace bvhio {
 namespace {

@@ -10,10 +10,10 @@
 #include "common/test_rays.h"
 #include "common/test_scenes.h"
 #include "compress/forms.h"
-#include "core/validate.h"
 #include "file/scene_chunks.h"
 #include "stats/hashes.h"
 #include "trace/trace.h"
+#include "tree/validate.h"
 
 namespace bvhio {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "build/builders.h"
 #include "common/test_scenes.h"
-#include "core/validate.h"
 #include "file/scene_chunks.h"
 #include "stats/hashes.h"
+#include "tree/validate.h"
 
 namespace bvhio {
 namespace {

@@ -8,9 +8,9 @@
 #include "common/expect_valid.h"
 #include "common/shuffled_tree.h"
 #include "common/test_scenes.h"
-#include "core/sah_cost.h"
 #include "relayout/clusters.h"
 #include "stats/hashes.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 namespace {

@@ -11,9 +11,9 @@
 #include "common/test_rays.h"
 #include "common/test_scenes.h"
 #include "core/error.h"
+#include "metrics/cache_model.h"
+#include "rays/ray_sets.h"
 #include "relayout/layouts.h"
-#include "trace/cache_model.h"
-#include "trace/ray_sets.h"
 #include "trace/trace.h"
 
 namespace bvhio {

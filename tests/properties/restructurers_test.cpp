@@ -1,4 +1,4 @@
-// Every restructurer, over every builder's trees of awkward scenes: the invariants of core/bvh.h, and the
+// Every restructurer, over every builder's trees of awkward scenes: the invariants of tree/bvh.h, and the
 // promise that the cost never rises.
 #include "restructure/restructurers.h"
 
@@ -12,8 +12,8 @@
 #include "common/shuffled_tree.h"
 #include "common/test_scenes.h"
 #include "core/parallel.h"
-#include "core/validate.h"
 #include "file/scene_chunks.h"
+#include "tree/validate.h"
 
 namespace bvhio {
 namespace {

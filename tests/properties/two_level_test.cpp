@@ -7,10 +7,10 @@
 #include "build/builders.h"
 #include "common/test_rays.h"
 #include "common/test_scenes.h"
-#include "core/validate.h"
 #include "file/scene_chunks.h"
 #include "stats/hashes.h"
 #include "trace/trace.h"
+#include "tree/validate.h"
 #include "unit/file/support.h"
 
 namespace bvhio {

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "trace/ray_sets.h"
+#include "rays/ray_sets.h"
 
 namespace bvhio {
 namespace {

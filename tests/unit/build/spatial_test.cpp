@@ -7,7 +7,7 @@
 #include "build/binned.h"
 #include "common/test_scenes.h"
 #include "core/clip_triangle.h"
-#include "core/refit.h"
+#include "tree/refit.h"
 
 namespace bvhio {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "common/test_scenes.h"
-#include "core/depth.h"
+#include "tree/depth.h"
 
 namespace bvhio {
 namespace {

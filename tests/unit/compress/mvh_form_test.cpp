@@ -9,9 +9,9 @@
 #include "common/test_scenes.h"
 #include "compress/mvh_build.h"
 #include "core/parallel.h"
-#include "core/sah_cost.h"
-#include "core/validate.h"
 #include "stats/hashes.h"
+#include "tree/sah_cost.h"
+#include "tree/validate.h"
 
 namespace bvhio {
 namespace {

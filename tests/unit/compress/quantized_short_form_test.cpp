@@ -9,10 +9,10 @@
 #include "common/expect_valid.h"
 #include "common/test_scenes.h"
 #include "compress/quantized_form.h"
-#include "core/clusters.h"
 #include "core/error.h"
 #include "stats/hashes.h"
 #include "trace/trace.h"
+#include "tree/clusters.h"
 #include "unit/relayout/small_tree.h"
 
 namespace bvhio {

@@ -8,7 +8,7 @@
 #include "common/test_scenes.h"
 #include "compress/two_level_form.h"
 #include "core/error.h"
-#include "core/sah_cost.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 namespace {

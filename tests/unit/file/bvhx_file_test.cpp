@@ -8,12 +8,12 @@
 #include <fstream>
 #include <thread>
 
+#include "container/container.h"
 #include "core/parallel.h"
-#include "core/validate.h"
 #include "file/check.h"
 #include "file/chunks.h"
-#include "file/container.h"
 #include "file/scene_chunks.h"
+#include "tree/validate.h"
 #include "unit/file/support.h"
 
 namespace bvhio {

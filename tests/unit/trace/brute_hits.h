@@ -2,8 +2,8 @@
 // test.
 #pragma once
 
-#include "trace/ray_sets.h"
-#include "trace/surface_point.h"
+#include "rays/ray_sets.h"
+#include "rays/surface_point.h"
 
 namespace bvhio {
 

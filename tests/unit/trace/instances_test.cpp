@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "common/instanced_scenes.h"
-#include "trace/hit_file.h"
+#include "rays/hit_file.h"
+#include "rays/surface_point.h"
 #include "trace/queries.h"
-#include "trace/surface_point.h"
 #include "trace/trace.h"
 
 namespace bvhio {

@@ -5,7 +5,7 @@
 #include "build/binned.h"
 #include "common/test_scenes.h"
 #include "core/parallel.h"
-#include "trace/ray_sets.h"
+#include "rays/ray_sets.h"
 
 namespace bvhio {
 namespace {

@@ -1,0 +1,119 @@
+// The container of format-spec/container.md: signature, header, checksummed chunks, END. It knows nothing of
+// BVHs.
+#pragma once
+
+#include <array>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "container/byte_source.h"
+#include "container/codecs.h"
+#include "core/findings.h"
+
+namespace bvhio {
+
+/// The version of the format that this library writes, and the newest that it reads.
+inline constexpr uint16_t kFormatMajor = 1, kFormatMinor = 0;
+
+/// A chunk's type as the u32 of its four bytes, so `chunkType("NODE")`.
+constexpr uint32_t chunkType(const char (&name)[5]) {
+    uint32_t type = 0;
+    for (int i = 0; i < 4; ++i) type |= uint32_t(static_cast<unsigned char>(name[i])) << (8 * i);
+    return type;
+}
+std::string chunkTypeName(uint32_t type);
+
+/// Flags of a chunk.
+inline constexpr uint32_t kCritical = 1, kSurvivesReorder = 2, kSurvivesTopologyChange = 4;
+
+inline constexpr uint32_t kEndType = chunkType("END ");
+inline constexpr uint32_t kProvenanceType =
+    chunkType("PROV");  // known here because the content hash leaves it out
+
+/// A chunk header as it stands in the file.
+struct ChunkHeader {
+    uint32_t type = 0;
+    uint32_t flags = 0;
+    uint32_t codec = 0;
+    uint64_t rawSize = 0;
+    uint64_t storedSize = 0;
+    uint64_t checksum = 0;  // digest of the stored payload
+    uint64_t offset = 0;    // of the header in the file
+
+    uint64_t payloadOffset() const { return offset + 64; }
+};
+
+/// The hash of a file's content, fed with each chunk in file order.
+class ContentHash {
+  public:
+    void add(const ChunkHeader& header, uint64_t rawDigest);
+    uint64_t value() const;
+
+  private:
+    std::vector<uint64_t> records_;
+};
+
+/// Reads a container front to back. Everything that clauses R10xx say is checked; whatever is broken throws
+/// FindingError.
+class ContainerReader {
+  public:
+    /// Reads the file's header.
+    explicit ContainerReader(ByteSource& source);
+
+    /// The next chunk's header; nothing once END, the content hash and the end of the file were found right.
+    std::optional<ChunkHeader> nextHeader();
+    /// The payload of that chunk, decoded; a view into the file where it was mapped and stored with codec
+    /// none.
+    Bytes payload();
+    /// Reads and checks whatever is left of the container.
+    void drain();
+    /// Passes over the payload without decoding it, and says whether its checksum matched. END is then not
+    /// checked.
+    bool skipPayload();
+
+    /// Throws FindingError about the chunk that was read last.
+    [[noreturn]] void fail(FindingId id, const std::string& message) const;
+    const std::string& name() const { return source_.name(); }
+    const ChunkHeader& lastHeader() const { return header_; }
+
+  private:
+    Bytes takeStored();
+    void checkEnd(const Bytes& payload);
+
+    ByteSource& source_;
+    ChunkHeader header_;
+    ContentHash hash_;
+    uint64_t chunks_ = 0;
+    bool pending_ = false;  // a header was read, its payload not yet
+    bool skipped_ = false;
+};
+
+/// Writes a container front to back to a stream that need not be seekable. Throws Error{io} when the stream
+/// fails.
+class ContainerWriter {
+  public:
+    /// Writes the file's header. `level` 0 is the codec's default.
+    ContainerWriter(std::ostream& out, const Codec& codec, int level);
+
+    void write(uint32_t type, uint32_t flags, std::span<const std::byte> payload,
+               Numbers numbers = Numbers::none);
+    /// Writes END and flushes; returns the content hash.
+    uint64_t finish();
+
+  private:
+    void writeChunk(uint32_t type, uint32_t flags, std::span<const std::byte> payload,
+                    const std::optional<EncodedPayload>& encoded);
+    void put(std::span<const std::byte> bytes);
+
+    std::ostream& out_;
+    const Codec& codec_;
+    int level_;
+    ContentHash hash_;
+    uint64_t chunks_ = 0;
+    uint64_t written_ = 0;
+};
+
+}  // namespace bvhio

@@ -1,0 +1,52 @@
+// The pinhole camera of primary rays, and how the command line writes it.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/ray.h"
+#include "rays/vec3d.h"
+
+namespace bvhio {
+
+/// A pinhole camera. `fov` is the full vertical angle in degrees; `up` need only not be parallel to the view.
+struct Camera {
+    Vec3 eye;
+    Vec3 target;
+    float fov = 50;
+    Vec3 up{0, 1, 0};
+    bool operator==(const Camera&) const = default;
+};
+
+/// Reads "EYE:TARGET[:FOV[:UP]]", points as x,y,z and the angle in degrees: "0,1,5:0,1,0:60:0,0,1". Where UP
+/// is left out it is +y, or -z for a view along y. Throws Error{usage} that says which part is wrong.
+Camera parseCamera(std::string_view text);
+
+/// The text that `parseCamera` reads back to the same bits.
+std::string formatCamera(const Camera& camera);
+
+/// Unit vectors to the right, up and forwards of a camera. Throws Error{usage} for one that looks nowhere.
+struct CameraFrame {
+    Vec3d right, up, forward;
+};
+CameraFrame cameraFrame(const Camera& camera);
+
+/// The tangent of half an angle given in degrees, between 0 and 180, from a series in double: that of libm
+/// differs by version.
+double halfTangent(double degrees);
+
+/// Makes the rays through the centres of a picture's pixels.
+class PrimaryRays {
+  public:
+    PrimaryRays(const Camera& camera, uint32_t width, uint32_t height);
+
+    /// The ray through column x, from the left, and row y, from the top. Its direction has unit length.
+    Ray ray(uint32_t x, uint32_t y) const;
+
+  private:
+    Vec3 eye_;
+    Vec3d topLeft_, stepRight_,
+        stepDown_;  // the first pixel's centre as seen from the eye, and the way to the next
+};
+
+}  // namespace bvhio

@@ -1,0 +1,41 @@
+// Where a ray hit a surface, precise enough to start other rays there.
+#pragma once
+
+#include "core/ray.h"
+#include "rays/vec3d.h"
+#include "scene/scene.h"
+
+namespace bvhio {
+
+/// A point from which rays into the half space of `normal` do not meet the surface they leave.
+struct SurfacePoint {
+    Vec3 origin;
+    Vec3d normal;  // unit, of the flat triangle, towards the viewer
+};
+
+/// The unit normal of a triangle in its winding's sense, or zero for one without area.
+inline Vec3d triangleNormal(const Triangle& t) {
+    return normalize(cross(Vec3d(t.v1) - Vec3d(t.v0), Vec3d(t.v2) - Vec3d(t.v0)));
+}
+
+/// The point of a hit (not a miss), from its barycentric weights: unlike origin + t * direction it does not
+/// drift off the triangle with distance. It is lifted along the normal by 2^-19 of the triangle's largest
+/// coordinate, 32 times what rounding the point to float may move it and what the intersection test of a ray
+/// starting there may err.
+SurfacePoint surfacePoint(const Scene& scene, const Ray& ray, const Hit& hit);
+
+/// Calls function(v) with the vertices of the instance's triangles where they stand in the world.
+template <class Function>
+void forEachPlacedVertex(const Scene& scene, const SceneInstance& instance, const Function& function) {
+    const SceneMesh& mesh = scene.meshes[instance.mesh];
+    for (uint32_t i = 0; i < mesh.triangleCount; ++i) {
+        const TriangleIndices& t = scene.triangles[mesh.firstTriangle + i];
+        for (const uint32_t v : {t.v0, t.v1, t.v2})
+            function(place(instance.objectToWorld, scene.vertices[v]));
+    }
+}
+
+/// The box in the world of all triangles.
+Aabb triangleBounds(const Scene& scene);
+
+}  // namespace bvhio

@@ -69,8 +69,8 @@ struct PreparedRay {
     Vec3 direction;
     float tMax;                          // < tMin for a ray that misses by definition
     Vec3 nearReciprocal, farReciprocal;  // 1 / direction, a little too small and a little too large
-    uint32_t nearPlane[3],
-        farPlane[3];  // which of {min.x, min.y, min.z, max.x, max.y, max.z} the ray meets first, and last
+    // Which of {min.x, min.y, min.z, max.x, max.y, max.z} the ray meets first, and last, by axis.
+    uint32_t nearPlane[3], farPlane[3];
     int axisX, axisY, axisZ;  // axisZ: where the direction is largest
     double shearX, shearY;    // direction[axisX], direction[axisY] over direction[axisZ]
 

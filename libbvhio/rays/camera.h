@@ -45,8 +45,8 @@ class PrimaryRays {
 
   private:
     Vec3 eye_;
-    Vec3d topLeft_, stepRight_,
-        stepDown_;  // the first pixel's centre as seen from the eye, and the way to the next
+    Vec3d topLeft_;               // the first pixel's centre as seen from the eye
+    Vec3d stepRight_, stepDown_;  // the way from a pixel to the next
 };
 
 }  // namespace bvhio

@@ -43,8 +43,8 @@ struct RaySetOptions {
 /// Rays, and where they come from.
 struct RaySet {
     std::vector<Ray> rays;
-    std::vector<uint32_t>
-        pixels;  // of each ray, y * width + x, for the picture that it belongs to; empty for `random`
+    /// The pixel of each ray, y * width + x, in the picture that it belongs to. Empty for `random`.
+    std::vector<uint32_t> pixels;
     Resolution resolution;
     Camera camera;
     bool anyHitIsEnough = false;  // shadow and ao rays ask only whether something is in the way
@@ -65,10 +65,10 @@ using RaySetChoice = Choice<RaySet (*)(const RaySetSource&)>;
 /// - primary: one ray through the centre of each pixel, rows from the top, tMin 0 and tMax infinity.
 /// - shadow: from each primary hit to a point light (see `lightPosition`); tMax ends just before it.
 /// - ao: kAoRays rays from each primary hit, cosine-weighted over the hemisphere, as long as kAoReach of the
-/// scene's diagonal.
+///   scene's diagonal.
 /// - diffuse: one cosine-weighted bounce off each primary hit, of any length.
 /// - random: lines through the scene's bounding box, uniform among all lines that meet it; each starts
-/// outside the box, or on it in scenes so large that floats reach no farther.
+///   outside the box, or on it in scenes so large that floats reach no farther.
 ///
 /// Directions have unit length. Rays that leave a surface start on its side that faces the viewer, 2^-19 of
 /// the hit triangle's largest coordinate above it: relative, so that nothing is lost in scenes of any size,

@@ -2,7 +2,7 @@
 // is. A decoder must follow this bit by bit: binary64, round to nearest, no contraction.
 //
 // Planes are held as insets, how far they lie inside the root's box, so that rounding does not depend on
-// where in space the scene lies: it is relative to the scene's size (compress/ray_frame.h relies on that). A
+// where in space the scene lies: it is relative to the scene's size (trace/ray_frame.h relies on that). A
 // fraction of 0 keeps a plane exactly.
 #pragma once
 

@@ -3,19 +3,17 @@
 // After P. Bauszat, M. Eisemann, M. Magnor, "The Minimal Bounding Volume Hierarchy", VMV 2010: the shape of a
 // tree follows from the number of its primitives, and a child's box from its parent's by a short code that
 // cuts fixed parts off. Departures, since these trees are small and many:
+//
 // - A code has 4 bits, not 2. It says which axis is cut; in the paper that is the longest, so a traversal
-// needs
-//   the box in space. With the axis said, a ray goes on with the places of planes that it brings from the top
-//   level (compress/ray_frame.h), and boxes that are thin or share their longest axis with their parent
-//   shrink sooner: 2 bits more a node take 10 to 25 % off the cost of a tree. There are two sizes of cuts of
+//   needs the box in space. With the axis said, a ray goes on with the places of planes that it brings from
+//   the top level (trace/ray_frame.h), and boxes that are thin or share their longest axis with their parent
+//   shrink sooner: 2 bits more a node take 10 to 25% off the cost of a tree. There are two sizes of cuts of
 //   one side.
 // - A tree's nodes are split by halves of its leaves, so that all of a subtree's primitives are one run; the
-// last
-//   leaf is short, and no triangle is stored twice.
+//   last leaf is short, and no triangle is stored twice.
 // - All trees share one array of bytes without a table: see MvhRuns.
 #pragma once
 
-#include "compress/ray_frame.h"
 #include "compress/root_places.h"
 #include "compress/two_levels.h"
 #include "core/shared_array.h"
@@ -94,94 +92,13 @@ constexpr MvhCut mvhCut(uint32_t code) {
     if (kind == 4) cut.min[axis] = cut.max[axis] = kSmall;
     return cut;
 }
-/// The same as a traversal loads it.
-struct alignas(16) MvhMove {
-    float min[4], max[4];
-};
-constexpr std::array<MvhMove, kMvhCodes> mvhMoves() {
-    std::array<MvhMove, kMvhCodes> moves{};
-    for (uint32_t code = 0; code < kMvhCodes; ++code) {
-        const MvhCut cut = mvhCut(code);
-        for (int axis = 0; axis < 3; ++axis) {
-            moves[code].min[axis] = cut.min[axis];
-            moves[code].max[axis] = cut.max[axis];
-        }
-    }
-    return moves;
-}
-inline constexpr std::array<MvhMove, kMvhCodes> kMvhMoves = mvhMoves();
 /// The box of a child.
 InsetBox cutBox(const InsetFrame& frame, const InsetBox& box, uint32_t code);
-
-/// One of the trees, for a ray to step through. What all of its nodes have in common is here, so that a
-/// cursor has two numbers only.
-class MvhTree {
-  public:
-    static constexpr int kMaxChildren = 2;
-    using Ray = RayFrame;
-
-    struct Cursor {
-        PlacedBox box;
-        uint32_t leaf, leaves;  // the first below this node, counted from the tree's first, and how many
-    };
-
-    BVHIO_INLINE MvhTree(const MvhRuns& shape, const uint8_t* codes, PrimitiveRange run)
-        : codes_(codes), run_(run), leafSize_(shape.leafSize()), root_(shape.root(run)) {}
-
-    template <class Entry, class Metrics>
-    BVHIO_INLINE Entered<Cursor> root(const Entry& entry, const RayFrame& ray, Metrics&) const {
-        return {{entry.place(ray), 0, root_.leaves}, entry.enter};
-    }
-
-    /// Per pair: 3 differences for the size of the box, 6 products and 6 sums for the planes of each child, 3
-    /// sums a child for the margin.
-    template <class Metrics>
-    BVHIO_INLINE int step(const Entered<Cursor>& from, const RayFrame& ray, float tLimit,
-                          Entered<Cursor>* children, Metrics& metrics) const {
-        const uint32_t leaf = from.cursor.leaf, leaves = from.cursor.leaves, leftLeaves = (leaves + 1) / 2;
-        const uint32_t at = root_.slot + leaf + leftLeaves;  // as MvhRun::codes
-        metrics.recordFetched(at, 1);
-        metrics.boxesTested(1, BoxTestCost{17, 12});
-        metrics.boxesTested(1, BoxTestCost{16, 12});
-        const uint32_t codes = codes_[at];
-        const PlacedBox& box = from.cursor.box;
-        const Four size = box.size();
-        const PlacedBox left = cut(box, size, kMvhMoves[codes & 15]),
-                        right = cut(box, size, kMvhMoves[codes >> 4]);
-        const EnteredOfTwo found = ray.clip(left, right, tLimit);
-        const auto enter = [&](int child, Entered<Cursor>& entered) {
-            entered = child == 0
-                          ? Entered<Cursor>{{left, leaf, leftLeaves}, found.enter[0]}
-                          : Entered<Cursor>{{right, leaf + leftLeaves, leaves - leftLeaves}, found.enter[1]};
-        };
-        return enterInOrder(found, enter, children);
-    }
-    bool isLeaf(const Cursor& cursor) const { return cursor.leaves <= 1; }
-    PrimitiveRange primitiveRange(const Cursor& cursor) const {
-        const uint32_t before = cursor.leaf * leafSize_, left = run_.count - before;
-        return {run_.first + before, left < leafSize_ ? left : leafSize_};
-    }
-
-  private:
-    static BVHIO_INLINE PlacedBox cut(const PlacedBox& box, Four size, const MvhMove& move) {
-        Four min, max;
-        std::memcpy(&min, move.min, sizeof min);
-        std::memcpy(&max, move.max, sizeof max);
-        return {box.min + min * size, box.max - max * size};
-    }
-
-    const uint8_t* codes_;
-    PrimitiveRange run_;
-    uint32_t leafSize_;
-    MvhRun root_;
-};
-static_assert(SteppableForm<MvhTree>);
 
 class MvhBlases {
   public:
     static constexpr std::string_view kName = "mvh";
     static constexpr bool kAreRuns = true;
-    using Ray = RayFrame;
 
     MvhBlases(uint32_t leafSize, SharedArray<uint8_t> codes) : shape_(leafSize), codes_(std::move(codes)) {}
 
@@ -196,10 +113,6 @@ class MvhBlases {
     const MvhRuns& shape() const { return shape_; }
     const SharedArray<uint8_t>& codes() const { return codes_; }
     size_t nodeBytes() const { return codes_.size(); }
-
-    static RayFrame prepare(const PreparedRay& ray, const Aabb& bounds) { return {ray, bounds}; }
-    /// The one over a run.
-    BVHIO_INLINE MvhTree tree(PrimitiveRange run) const { return {shape_, codes_.data(), run}; }
 
   private:
     MvhRuns shape_;

@@ -7,16 +7,12 @@
 // carries the parameters of the planes instead of a box.
 //
 // Departures: planes are insets from the parent's side, so 0 means inherited and no sign is stored; rounding
-// is paid for by one margin a ray (compress/ray_frame.h has the proof), not at each step.
+// is paid for by one margin a ray (trace/ray_frame.h has the proof), not at each step.
 #pragma once
 
-#include "compress/ray_frame.h"
+#include "compress/form_concept.h"
 #include "compress/root_places.h"
 #include "compress/two_levels.h"
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 namespace bvhio {
 
@@ -68,25 +64,12 @@ class QuantizedForm {
   public:
     static constexpr std::string_view kName = "quantized";
     static constexpr std::string_view kSummary = "16 bytes for two siblings, planes relative to the parent's";
-    static constexpr int kMaxChildren = 2;
-
-    struct Cursor {
-        PlacedBox box;
-        uint32_t word;
-        uint8_t more;
-    };
 
     /// `records` as in format-spec/quantized.md. `bits` of an inset; a tree without records is one leaf of
     /// all references.
     QuantizedForm(const Aabb& bounds, uint32_t bits, SharedArray<QuantizedRecord> records,
                   SharedArray<uint32_t> primitives)
-        : bounds_(bounds),
-          bits_(bits),
-          records_(std::move(records)),
-          primitives_(std::move(primitives)),
-          rootWord_(records_.empty() ? leaf().children[0] : 0),
-          rootMore_(records_.empty() ? leaf().more(0) : uint8_t(0)),
-          stepOfSize_(1 / float(1u << bits)) {}
+        : bounds_(bounds), bits_(bits), records_(std::move(records)), primitives_(std::move(primitives)) {}
 
     /// O(n). Leaves of more than 128 triangles are halved. Throws Error{unsupported} above 2^29 references.
     static QuantizedForm encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options);
@@ -116,87 +99,18 @@ class QuantizedForm {
     }
     size_t nodeBytes() const { return records_.size() * sizeof(QuantizedRecord); }
 
-    using Ray = RayFrame;
-    RayFrame prepare(const PreparedRay& ray) const { return {ray, bounds_}; }
-
-    template <class Metrics>
-    BVHIO_INLINE bool enterRoot(const RayFrame& ray, float tLimit, Entered<Cursor>& root,
-                                Metrics& metrics) const {
-        metrics.boxesTested(1, BoxTestCost{12, 12});
-        const RayInterval part = ray.clip(ray.root(), tLimit);
-        root = {{ray.root(), rootWord_, rootMore_}, part.enter};
-        return !part.isEmpty();
-    }
-
-    /// Per pair: 3 differences for the size of the box, 6 products and 6 sums for the new planes, 3 sums a
-    /// child for the margin.
-    template <class Metrics>
-    BVHIO_INLINE int step(const Entered<Cursor>& from, const RayFrame& ray, float tLimit,
-                          Entered<Cursor>* children, Metrics& metrics) const {
-        const uint32_t index = QuantizedRecord::record(from.cursor.word);
-        metrics.recordFetched(index * sizeof(QuantizedRecord), sizeof(QuantizedRecord));
-        metrics.boxesTested(1, BoxTestCost{11, 12});
-        metrics.boxesTested(1, BoxTestCost{10, 12});
-        const QuantizedRecord& record = records_[index];
-        PlacedBox left, right;
-        placeChildren(record, from.cursor.box, left, right);
-        const EnteredOfTwo found = ray.clip(left, right, tLimit);
-        const auto enter = [&](uint32_t child, Entered<Cursor>& entered) {
-            entered = {{child == 0 ? left : right, record.children[child], record.more(child)},
-                       found.enter[child]};
-        };
-        return enterInOrder(found, enter, children);
-    }
-
-    bool isLeaf(const Cursor& cursor) const { return QuantizedRecord::isLeaf(cursor.word); }
-    PrimitiveRange primitiveRange(const Cursor& cursor) const {
-        return {QuantizedRecord::firstPrimitive(cursor.word),
-                QuantizedRecord::primitiveCount(cursor.word, cursor.more)};
+    QuantizedRoot root() const {
+        if (!records_.empty()) return {0, 0};
+        QuantizedRecord record{};
+        record.setLeaf(0, 0, uint32_t(primitives_.size()));
+        return {record.children[0], record.more(0)};
     }
 
   private:
-    QuantizedRecord leaf() const {
-        QuantizedRecord record{};
-        record.setLeaf(0, 0, uint32_t(primitives_.size()));
-        return record;
-    }
-
-    /// The children's boxes as the ray sees them.
-    BVHIO_INLINE void placeChildren(const QuantizedRecord& record, const PlacedBox& box, PlacedBox& left,
-                                    PlacedBox& right) const {
-        Four mins, maxs;
-        FourInts minHead, maxHead;  // bytes 0 to 3 and 4 to 7, in all lanes
-#if defined(__SSE2__)
-        const __m128i zero = _mm_setzero_si128();
-        const __m128i raw = _mm_load_si128(reinterpret_cast<const __m128i*>(&record));
-        const __m128i words = _mm_unpacklo_epi8(raw, zero);
-        // Lane 3 becomes some number, times a size of 0.
-        mins = Four(_mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero)));
-        maxs = Four(_mm_cvtepi32_ps(_mm_unpackhi_epi16(words, zero)));
-        minHead = FourInts(_mm_shuffle_epi32(raw, 0x00));
-        maxHead = FourInts(_mm_shuffle_epi32(raw, 0x55));
-#else
-        const auto insets = [&](uint32_t side) {
-            return Four{float(record.inset(side)), float(record.inset(side + 1)),
-                        float(record.inset(side + 2)), 0};
-        };
-        mins = insets(0);
-        maxs = insets(3);
-        minHead = FourInts{} + int32_t(uint32_t(record.bytes[3]) << 24);
-        maxHead = FourInts{} + int32_t(uint32_t(record.bytes[7]) << 24);
-#endif
-        const FourInts owners{1 << 24, 1 << 25, 1 << 26, 0};
-        placeSiblings(box, mins * stepOfSize_, maxs * stepOfSize_, (minHead & owners) == owners,
-                      (maxHead & owners) == owners, left, right);
-    }
-
     Aabb bounds_;
     uint32_t bits_;
     SharedArray<QuantizedRecord> records_;
     SharedArray<uint32_t> primitives_;
-    uint32_t rootWord_;
-    uint8_t rootMore_;
-    float stepOfSize_;  // 2^-bits
 };
 static_assert(Form<QuantizedForm>);
 

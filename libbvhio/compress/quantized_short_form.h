@@ -14,7 +14,6 @@
 
 #include "compress/form_concept.h"
 #include "compress/inset_box.h"
-#include "compress/ray_frame.h"
 
 namespace bvhio {
 
@@ -68,13 +67,6 @@ class QuantizedShortForm {
   public:
     static constexpr std::string_view kName = "quantized-short";
     static constexpr std::string_view kSummary = "8 bytes for two siblings, with short pointers in clusters";
-    static constexpr int kMaxChildren = 2;
-
-    struct Cursor {
-        PlacedBox box;
-        uint32_t firstSlot, firstEntry;  // of the cluster
-        uint32_t reference;
-    };
 
     /// Slots and bitmap as in format-spec/quantized-short.md; no bitmap where each leaf owns one entry.
     QuantizedShortForm(const Aabb& bounds, uint32_t pointerBits, uint32_t lineSlots,
@@ -110,56 +102,10 @@ class QuantizedShortForm {
         return slots_.size() * sizeof(ShortRecord) + lastEntries_.size() * sizeof(uint32_t);
     }
 
-    using Ray = RayFrame;
-    RayFrame prepare(const PreparedRay& ray) const { return {ray, bounds_}; }
-
-    template <class Metrics>
-    BVHIO_INLINE bool enterRoot(const RayFrame& ray, float tLimit, Entered<Cursor>& root,
-                                Metrics& metrics) const {
-        metrics.boxesTested(1, BoxTestCost{12, 12});
-        const RayInterval part = ray.clip(ray.root(), tLimit);
-        root = {{ray.root(), 0, 0, slots_.empty() ? firstLeaf_ : 0}, part.enter};
-        return !part.isEmpty();
-    }
-
-    /// The arithmetic is the quantized form's.
-    template <class Metrics>
-    BVHIO_INLINE int step(const Entered<Cursor>& from, const RayFrame& ray, float tLimit,
-                          Entered<Cursor>* children, Metrics& metrics) const {
-        uint32_t firstSlot = from.cursor.firstSlot, firstEntry = from.cursor.firstEntry;
-        const ShortRecord* record = fetch(firstSlot + from.cursor.reference, metrics);
-        if (record->isGlue()) [[unlikely]] {
-            firstSlot = record->line() << lineShift_;
-            firstEntry = record->firstEntry();
-            record = fetch(firstSlot, metrics);
-        }
-        metrics.boxesTested(1, BoxTestCost{11, 12});
-        metrics.boxesTested(1, BoxTestCost{10, 12});
-        PlacedBox left, right;
-        placeChildren(*record, from.cursor.box, left, right);
-        const EnteredOfTwo found = ray.clip(left, right, tLimit);
-        const auto enter = [&](uint32_t child, Entered<Cursor>& entered) {
-            entered = {{child == 0 ? left : right, firstSlot, firstEntry, record->reference(child)},
-                       found.enter[child]};
-        };
-        return enterInOrder(found, enter, children);
-    }
-
-    bool isLeaf(const Cursor& cursor) const { return cursor.reference >= firstLeaf_; }
-    PrimitiveRange primitiveRange(const Cursor& cursor) const {
-        const uint32_t first = firstEntryOf(cursor.firstEntry, cursor.reference);
-        return {first, countFrom(first)};
-    }
-    /// Tells the words of the bitmap, which lies behind the slots.
-    template <class Metrics>
-    BVHIO_INLINE PrimitiveRange primitiveRange(const Cursor& cursor, Metrics& metrics) const {
-        const PrimitiveRange range = primitiveRange(cursor);
-        if (!lastEntries_.empty())
-            metrics.recordFetched(slots_.size() * sizeof(ShortRecord) + range.first / 32 * sizeof(uint32_t),
-                                  2 * sizeof(uint32_t));
-        return range;
-    }
-
+    /// The least reference of a leaf.
+    uint32_t firstLeaf() const { return firstLeaf_; }
+    /// The first slot of a cluster that starts with the line.
+    uint32_t firstSlotOf(uint32_t line) const { return line << lineShift_; }
     /// Of the bitmap: a bit for each entry of the leaf order, and a word more, so that two can be read.
     static constexpr size_t lastEntryWords(size_t references) { return (references + 31) / 32 + 1; }
     /// Of a leaf by its reference, in a cluster whose entries begin with `clustersFirst`.
@@ -176,26 +122,6 @@ class QuantizedShortForm {
     }
 
   private:
-    template <class Metrics>
-    BVHIO_INLINE const ShortRecord* fetch(uint32_t slot, Metrics& metrics) const {
-        metrics.recordFetched(slot * sizeof(ShortRecord), sizeof(ShortRecord));
-        return slots_.data() + slot;
-    }
-
-    /// The children's boxes as the ray sees them. Insets become fractions where they lie in their word: a
-    /// number n 2^k is exact, and so is its product with 2^-(6 + k).
-    BVHIO_INLINE void placeChildren(const ShortRecord& record, const PlacedBox& box, PlacedBox& left,
-                                    PlacedBox& right) const {
-        const FourInts insets{63, 63 << 6, 63 << 12, 0};
-        const FourInts owners{1 << 18, 1 << 19, 1 << 20, 0};
-        const Four unit{0x1p-6f, 0x1p-12f, 0x1p-18f, 0};
-        const FourInts mins = FourInts{} + int32_t(record.words()[0]);
-        const FourInts maxs = FourInts{} + int32_t(record.words()[1]);
-        placeSiblings(box, __builtin_convertvector(mins & insets, Four) * unit,
-                      __builtin_convertvector(maxs & insets, Four) * unit, (mins & owners) == owners,
-                      (maxs & owners) == owners, left, right);
-    }
-
     Aabb bounds_;
     uint32_t pointerBits_;
     uint32_t firstLeaf_;  // the least reference of a leaf

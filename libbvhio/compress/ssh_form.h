@@ -41,35 +41,10 @@ struct SshNode {
 };
 static_assert(sizeof(SshNode) == 8);
 
-/// A ray with what its planes need, by side.
-struct SshRay {
-    const PreparedRay& ray;
-    float origin[8], reciprocal[8];
-    uint32_t nearMask[8];  // all ones where the ray enters through that side
-
-    explicit SshRay(const PreparedRay& prepared) : ray(prepared) {
-        for (uint32_t side = 0; side < 6; ++side) {
-            const uint32_t axis = side % 3;
-            const bool isNear = ray.nearPlane[axis] == side;
-            origin[side] = component(ray.origin, int(axis));
-            reciprocal[side] = component(isNear ? ray.nearReciprocal : ray.farReciprocal, int(axis));
-            nearMask[side] = isNear ? ~0u : 0;
-        }
-    }
-};
-
 class SshForm {
   public:
     static constexpr std::string_view kName = "ssh";
     static constexpr std::string_view kSummary = "8-byte nodes of one plane each (Single Slab Hierarchy)";
-    static constexpr int kMaxChildren = 2;
-    /// Per box: one difference and one product; one minimum or maximum, one comparison.
-    static constexpr BoxTestCost kBoxTestCost{2, 2};
-
-    struct Cursor {
-        uint32_t word;  // of the node
-        float exit;     // where the ray leaves the node's box
-    };
 
     /// `nodes` as in format-spec/ssh.md; slot 1 is unused.
     SshForm(const Aabb& bounds, SharedArray<SshNode> nodes, SharedArray<uint32_t> primitives)
@@ -94,78 +69,7 @@ class SshForm {
     static Trees encodeTrees(const Forest& forest, std::span<const Aabb> boxes, size_t references);
     static Forest decodeTrees(const Trees& trees, std::span<const Aabb> boxes);
 
-    using Ray = SshRay;
-    SshRay prepare(const PreparedRay& ray) const { return SshRay(ray); }
-
-    template <class Metrics>
-    BVHIO_INLINE bool enterRoot(const SshRay& ray, float tLimit, Entered<Cursor>& root,
-                                Metrics& metrics) const {
-        metrics.recordFetched(0, sizeof(SshNode));
-        metrics.boxesTested(1, BoxTestCost{12, 12});
-        const RayInterval part = clipToBox(ray.ray, bounds_, tLimit);
-        root = {{nodes_[0].word, part.exit}, part.enter};
-        return !part.isEmpty();
-    }
-
-    /// Every plane met on the way down is clipped by the arithmetic of clipToPlanes, so the interval is what
-    /// that finds for the box that all of them bound.
-    template <class Metrics>
-    BVHIO_INLINE int step(const Entered<Cursor>& from, const SshRay& ray, float tLimit,
-                          Entered<Cursor>* children, Metrics& metrics) const {
-        const SshNode node{0, from.cursor.word};
-        const uint32_t left = node.left();
-        metrics.recordFetched(left * sizeof(SshNode), 2 * sizeof(SshNode));
-        metrics.boxesTested(2, kBoxTestCost);
-        const SshNode* pair = nodes_.data() + left;
-        const float exit = from.cursor.exit < tLimit ? from.cursor.exit : tLimit;
-        // The nearer child by the direction along the axis that separates them.
-        const uint32_t nearSide = ray.nearMask[node.splitAxis()] + 1;  // 0 when the ray goes up the axis
-        Entered<Cursor> nearer, farther;
-        const bool entersNearer = clip(ray, pair[nearSide], from.enter, exit, nearer);
-        const bool entersFarther = clip(ray, pair[nearSide ^ 1], from.enter, exit, farther);
-        if (entersNearer) {
-            children[0] = nearer;
-            if (!entersFarther) return 1;
-            children[1] = farther;
-            return 2;
-        }
-        children[0] = farther;
-        return entersFarther;
-    }
-
-    bool isLeaf(const Cursor& cursor) const { return SshNode{0, cursor.word}.isLeaf(); }
-    PrimitiveRange primitiveRange(const Cursor& cursor) const {
-        const SshNode node{0, cursor.word};
-        return {node.firstPrimitive(), node.primitiveCount()};
-    }
-
   private:
-    static BVHIO_INLINE bool clip(const SshRay& ray, const SshNode& node, float enter, float exit,
-                                  Entered<Cursor>& child) {
-        const uint32_t side = node.side();
-#if defined(__SSE__)
-        // As in clipToPlanes; whether the plane is where the ray enters is anyone's guess, so no branch.
-        const __m128 t = _mm_mul_ss(_mm_sub_ss(_mm_load_ss(&node.plane), _mm_load_ss(ray.origin + side)),
-                                    _mm_load_ss(ray.reciprocal + side));
-        const __m128 isNear = _mm_load_ss(reinterpret_cast<const float*>(ray.nearMask + side));
-        const __m128 in = _mm_set_ss(enter), out = _mm_set_ss(exit);
-        const __m128 nearT = _mm_or_ps(_mm_and_ps(isNear, t), _mm_andnot_ps(isNear, in));
-        const __m128 farT = _mm_or_ps(_mm_and_ps(isNear, out), _mm_andnot_ps(isNear, t));
-        const __m128 entry = _mm_max_ss(nearT, in), leaving = _mm_min_ss(farT, out);
-        child = {{node.word, _mm_cvtss_f32(leaving)}, _mm_cvtss_f32(entry)};
-        return _mm_comile_ss(entry, leaving);
-#else
-        const float t = (node.plane - ray.origin[side]) * ray.reciprocal[side];
-        // A NaN fails the comparisons and leaves the interval as it is, as in clipToPlanes.
-        if (ray.nearMask[side] != 0)
-            enter = t > enter ? t : enter;
-        else
-            exit = t < exit ? t : exit;
-        child = {{node.word, exit}, enter};
-        return enter <= exit;
-#endif
-    }
-
     Aabb bounds_;
     SharedArray<SshNode> nodes_;
     SharedArray<uint32_t> primitives_;

@@ -90,7 +90,7 @@ class TwoLevelForm {
     uint32_t blasSize_;
     PlacedBlases placed_;
 };
-static_assert(StoredForm<TwoLevelForm>);
+static_assert(Form<TwoLevelForm>);
 
 namespace detail {
 template <class... Levels>

@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-#include "compress/form_concept.h"
+#include "metrics/no_metrics.h"
 #include "scene/scene.h"
 
 namespace bvhio {
@@ -31,7 +31,7 @@ class FetchListener {
 };
 
 /// The metrics policy that tells listeners; nearly free when there are none. Call `beginRay` before each ray.
-class FetchMetrics {
+class FetchMetrics : public NoMetrics {
   public:
     /// `primitives` is the form's primitive array.
     FetchMetrics(std::span<FetchListener* const> listeners, const Scene& scene,
@@ -45,12 +45,9 @@ class FetchMetrics {
         for (FetchListener* listener : listeners_)
             listener->fetched(FetchedArray::nodes, offset, uint32_t(bytes));
     }
-    void boxesTested(uint32_t, BoxTestCost) {}
     void leafEntered(PrimitiveRange range) {
         if (!listeners_.empty()) tellTriangles(range);
     }
-    void pushed(size_t) {}
-    void popped(size_t) {}
 
   private:
     void tellTriangles(PrimitiveRange range) const;

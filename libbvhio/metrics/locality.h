@@ -20,7 +20,7 @@
 #include <bit>
 #include <vector>
 
-#include "compress/form_concept.h"
+#include "metrics/no_metrics.h"
 
 namespace bvhio {
 
@@ -33,7 +33,7 @@ struct LocalityCounts {
 };
 
 /// The metrics policy that follows addresses. Call `finishRay` after each ray.
-class LocalityMetrics {
+class LocalityMetrics : public NoMetrics {
   public:
     explicit LocalityMetrics(size_t nodeBytes) : touched_(nodeBytes / kLocalitySizes[0] / 64 + 1) {}
 
@@ -49,10 +49,6 @@ class LocalityMetrics {
         }
         previous_ = offset;
     }
-    void boxesTested(uint32_t, BoxTestCost) {}
-    void leafEntered(PrimitiveRange) {}
-    void pushed(size_t) {}
-    void popped(size_t) {}
 
     void finishRay() { previous_ = kNone; }
 

@@ -18,7 +18,9 @@
 //                   of vertices.
 // LCV               The standard deviation over rays of LC: sqrt(E[LC^2] - E[LC]^2).
 // records  per ray  Node records fetched; what a form reads beside its nodes to find a leaf's triangles is
-// one. SOC      per ray  Stack operations: pushes and pops. SBL      per ray  Bytes that those move.
+//                   one.
+// SOC      per ray  Stack operations: pushes and pops.
+// SBL      per ray  Bytes that those move.
 //
 // Locality (LJC, CMC, WSS) is in metrics/locality.h. Sources of the names and of LCV: T. Aila, T. Karras, S.
 // Laine, "On Quality Metrics of Bounding Volume Hierarchies", HPG 2013, and the metrics of the HeavyRT
@@ -28,7 +30,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "compress/form_concept.h"
+#include "metrics/no_metrics.h"
 
 namespace bvhio {
 
@@ -81,7 +83,7 @@ struct TraversalCounts {
 };
 
 /// The metrics policy that counts. Call `finishRay` after each ray.
-class CountMetrics {
+class CountMetrics : public NoMetrics {
   public:
     void recordFetched(size_t, size_t bytes) {
         ++sums_.records;
@@ -143,7 +145,7 @@ struct CombinedMetrics {
     }
 };
 
-/// A policy as the bottom of two levels tells it: its records lie behind the top level's.
+/// The policy of the bottom of two levels, whose records lie behind the top level's.
 template <class Policy>
 struct MetricsBehind {
     Policy& policy;

@@ -158,61 +158,19 @@ class ArraysOf16And8 {
     AlignedVector<Children> children_;
 };
 
-/// Nodes stored in `Arrays`, as the traversal loop steps through them.
+/// Nodes stored in `Arrays`.
 template <class Arrays>
 class NodesIn {
   public:
-    static constexpr int kMaxChildren = 2;
-    using Cursor = uint32_t;  // a reference
-    using Ray = typename Arrays::Ray;
-
     /// Throws Error{unsupported} where leaves are too large and too many for references.
     explicit NodesIn(const AabbForm& form);
 
     std::span<const uint32_t> primitives() const { return primitives_; }
     size_t nodeBytes() const { return arrays_.bytes(); }
-
-    Ray prepare(const PreparedRay& ray) const { return arrays_.prepare(ray); }
-
-    template <class Metrics>
-    BVHIO_INLINE bool enterRoot(const PreparedRay& ray, float tLimit, Entered<Cursor>& root,
-                                Metrics& metrics) const {
-        metrics.boxesTested(1, AabbForm::kBoxTestCost);
-        const RayInterval part = clipToBox(ray, bounds_, tLimit);
-        root = {root_, part.enter};
-        return !part.isEmpty();
-    }
-    template <class Metrics>
-    BVHIO_INLINE bool enterRoot(const ArraysOf16And8::Ray& ray, float tLimit, Entered<Cursor>& root,
-                                Metrics& metrics) const {
-        return enterRoot(ray.given, tLimit, root, metrics);
-    }
-
-    template <class Metrics>
-    BVHIO_INLINE int step(const Entered<Cursor>& from, const std::remove_reference_t<Ray>& ray, float tLimit,
-                          Entered<Cursor>* children, Metrics& metrics) const {
-        const size_t i = from.cursor;
-        arrays_.tell(i, metrics);
-        metrics.boxesTested(2, AabbForm::kBoxTestCost);
-        const RayInterval inLeft = arrays_.clip(i, 0, ray, tLimit);
-        const RayInterval inRight = arrays_.clip(i, 1, ray, tLimit);
-        if (inLeft.isEmpty()) {
-            if (inRight.isEmpty()) return 0;
-            children[0] = {arrays_.child(i, 1), inRight.enter};
-            return 1;
-        }
-        if (inRight.isEmpty()) {
-            children[0] = {arrays_.child(i, 0), inLeft.enter};
-            return 1;
-        }
-        const bool rightFirst = inRight.enter < inLeft.enter;
-        children[rightFirst] = {arrays_.child(i, 0), inLeft.enter};
-        children[!rightFirst] = {arrays_.child(i, 1), inRight.enter};
-        return 2;
-    }
-
-    bool isLeaf(Cursor cursor) const { return ChildReferences::isLeaf(cursor); }
-    PrimitiveRange primitiveRange(Cursor cursor) const { return references_.range(cursor); }
+    const Aabb& bounds() const { return bounds_; }
+    const ChildReferences& references() const { return references_; }
+    uint32_t root() const { return root_; }
+    const Arrays& arrays() const { return arrays_; }
 
   private:
     Aabb bounds_;

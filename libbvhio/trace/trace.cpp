@@ -1,75 +1,13 @@
 #include "trace/trace.h"
 
-#include <mutex>
-
 #include "core/parallel.h"
-#include "trace/trace_blocks.h"
-#include "trace/traverse.h"
-#include "trace/traverse_two_level.h"
+#include "trace/queries.h"
 
 namespace bvhio {
 namespace {
 
 // Rays that one task traces: enough to make starting it cheap, few enough to share out.
 constexpr size_t kRaysPerTask = 1024;
-
-/// Traces one ray in the scene's own triangles.
-template <class Query, class Form, class Metrics>
-auto traceIndexed(const Form& form, const Scene& scene, const Ray& given, Metrics& metrics) {
-    const PreparedRay ray(given);
-    Query query(ray);
-    if (!ray.missesByDefinition())
-        HWY_NAMESPACE::traverse(form, HWY_NAMESPACE::IndexedTriangles{scene, form.primitives()}, ray, query,
-                                metrics);
-    return query.result();
-}
-
-template <class Query, class Result>
-void traceAllIndexed(const Scene& scene, const EncodedBvh& bvh, std::span<const Ray> rays,
-                     std::span<Result> results) {
-    std::visit(
-        [&](const auto& form) {
-            NoMetrics metrics;
-            for (size_t i = 0; i < rays.size(); ++i)
-                results[i] = traceIndexed<Query>(form, scene, rays[i], metrics);
-        },
-        bvh);
-}
-
-bool isHit(const Hit& hit) {
-    return !hit.isMiss();
-}
-bool isHit(bool occluded) {
-    return occluded;
-}
-
-template <class Query, class Form>
-TraceMeasurement measureForm(const Form& form, const Scene& scene, std::span<const Ray> rays,
-                             std::span<RayCounts> perRay, std::span<FetchListener* const> listeners) {
-    TraversalCounts sums;
-    LocalityMetrics allLocality(form.nodeBytes());
-    std::mutex mutex;
-    // Large tasks: each has its own map of the blocks that were touched. Listeners hear one ray after the
-    // other.
-    const size_t raysPerTask = listeners.empty() ? 16 * kRaysPerTask : std::max(rays.size(), size_t(1));
-    parallelChunks(rays.size(), raysPerTask, [&](size_t begin, size_t end) {
-        CountMetrics counts;
-        LocalityMetrics locality(form.nodeBytes());
-        FetchMetrics fetches(listeners, scene, form.primitives());
-        CombinedMetrics all(counts, locality, fetches);
-        for (size_t i = begin; i < end; ++i) {
-            fetches.beginRay(i);
-            const bool hit = isHit(traceIndexed<Query>(form, scene, rays[i], all));
-            const RayCounts ray = counts.finishRay(hit);
-            locality.finishRay();
-            if (!perRay.empty()) perRay[i] = ray;
-        }
-        const std::lock_guard lock(mutex);
-        sums.add(counts.sums());
-        allLocality.add(locality);
-    });
-    return {sums, allLocality.counts()};
-}
 
 /// Tests the triangles of a range; true when the query is done.
 template <class Query>
@@ -115,15 +53,6 @@ std::vector<PrimitiveRange> leavesOf(const EncodedBvh& encoded) {
     return leaves;
 }
 
-/// Nodes in pairs are the aabb form's: nothing needs to be compiled for them apart.
-template <class F>
-const F& countedAs(const F& form) {
-    return form;
-}
-const AabbForm& countedAs(const NodesInPairs& nodes) {
-    return nodes;
-}
-
 }  // namespace
 
 Tracer::Tracer(const Scene& scene, const EncodedBvh& bvh, TriangleSource source) : scene_(scene), bvh_(bvh) {
@@ -151,7 +80,7 @@ void Tracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
         if (blocks_)
             return std::visit([&](const auto& form) { closestHitsInBlocks(form, *blocks_, part, results); },
                               bvh_);
-        traceAllIndexed<ClosestHit>(scene_, bvh_, part, results);
+        std::visit([&](const auto& form) { closestHitsIndexed(form, scene_, part, results); }, bvh_);
     });
 }
 
@@ -163,18 +92,15 @@ void Tracer::anyHits(std::span<const Ray> rays, std::span<uint8_t> occluded) con
         if (blocks_)
             return std::visit([&](const auto& form) { anyHitsInBlocks(form, *blocks_, part, results); },
                               bvh_);
-        traceAllIndexed<AnyHit>(scene_, bvh_, part, results);
+        std::visit([&](const auto& form) { anyHitsIndexed(form, scene_, part, results); }, bvh_);
     });
 }
 
 TraceMeasurement Tracer::measure(std::span<const Ray> rays, Query query, std::span<RayCounts> perRay,
                                  std::span<FetchListener* const> listeners) const {
-    const auto measure = [&](const auto& nodes) {
-        const auto& form = countedAs(nodes);
-        return query == Query::closest ? measureForm<ClosestHit>(form, scene_, rays, perRay, listeners)
-                                       : measureForm<AnyHit>(form, scene_, rays, perRay, listeners);
-    };
-    return stored_ ? std::visit(measure, *stored_) : std::visit(measure, bvh_);
+    if (stored_) return measureForm(*stored_, scene_, rays, query, perRay, listeners);
+    return std::visit(
+        [&](const auto& form) { return measureForm(form, scene_, rays, query, perRay, listeners); }, bvh_);
 }
 
 FetchedArraySizes Tracer::arraySizes() const {

@@ -6,10 +6,8 @@
 #include <span>
 
 #include "compress/forms.h"
-#include "metrics/fetches.h"
-#include "metrics/locality.h"
-#include "metrics/metrics.h"
 #include "trace/node_storage.h"
+#include "trace/trace_form.h"
 #include "trace/triangle_blocks.h"
 
 namespace bvhio {
@@ -19,14 +17,6 @@ enum class TriangleSource {
     indexed,  // in the scene, through its indices: nothing to prepare, the way to the first ray after opening
               // a file
     blocks,   // in a copy made for tracing: about twice as fast, at 48 bytes for each triangle
-};
-
-enum class Query { closest, any };
-
-/// What a run with counting found.
-struct TraceMeasurement {
-    TraversalCounts counts;
-    LocalityCounts locality;
 };
 
 /// Traces batches of rays, on all threads that the caller's ThreadLimit leaves. Hits do not depend on the

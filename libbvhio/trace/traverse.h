@@ -1,8 +1,8 @@
 // The traversal loop: one for every form, source of triangles, query and metrics policy.
 //
 // It is compiled several times, once for each kind of processor (Highway's per-target inclusion, see
-// trace/trace_blocks_simd.h), so it lives in Highway's namespace for the target and has an include guard that
-// toggles.
+// trace/trace_form_simd.h). So it lives in Highway's namespace for the target and has an include guard that
+// toggles, and so do all headers that it is made of.
 //
 // A source tests the triangles of a leaf: `source.test(range, ray, query)` offers hits to the query and
 // returns true when the query is done. IndexedTriangles reads them from the scene, and needs no preparation;
@@ -17,9 +17,9 @@
 
 #include <hwy/highway.h>
 
-#include "compress/form_concept.h"
 #include "scene/scene.h"
 #include "trace/queries.h"
+#include "trace/stepper.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
@@ -44,68 +44,69 @@ struct IndexedTriangles {
     }
 };
 
+/// Goes on from `current`, a node that a ray entered, to the nearest leaf below it, which then is `current`.
+/// Returns false where a node is met of which no child is entered.
+template <SteppableNodes S, class Metrics>
+HWY_INLINE bool descend(const S& stepper, const typename S::Ray& ray, float tLimit,
+                        Entered<typename S::Cursor>& current, Entered<typename S::Cursor>*& top,
+                        Metrics& metrics) {
+    while (!stepper.isLeaf(current.cursor)) {
+        Entered<typename S::Cursor> next;
+        if (!stepper.step(current, ray, tLimit, next, top, metrics)) return false;
+        current = next;
+    }
+    return true;
+}
+
 /// Walks a ray on from a node that it entered, down to the leaves: `visitLeaf(entered)` is called for each
 /// and returns true when the query is done, as this does then. Nearer children come first; the others wait on
 /// the stack and are dropped when a hit nearer than their boxes was found meanwhile.
-template <SteppableForm F, class Query, class Metrics, class VisitLeaf>
-HWY_INLINE bool traverseFrom(const F& form, Entered<typename F::Cursor> current,
-                             const typename F::Ray& formRay, Query& query, Metrics& metrics,
+template <SteppableNodes S, class Query, class Metrics, class VisitLeaf>
+HWY_INLINE bool traverseFrom(const S& stepper, Entered<typename S::Cursor> current,
+                             const typename S::Ray& ray, Query& query, Metrics& metrics,
                              const VisitLeaf& visitLeaf) {
-    using Entry = Entered<typename F::Cursor>;
-    Entry stack[kMaxDepth * (F::kMaxChildren - 1) + 1];
+    using Entry = Entered<typename S::Cursor>;
+    Entry stack[kMaxDepth * S::kMaxPushed + 1];
     Entry* top = stack;
     for (;;) {
-        int entered = 0;
-        if (form.isLeaf(current.cursor)) {
-            if (visitLeaf(current)) return true;
-        } else {
-            Entry children[F::kMaxChildren];
-            entered = form.step(current, formRay, query.boxLimit(), children, metrics);
-            for (int i = entered - 1; i > 0; --i) {
-                *top++ = children[i];
-                metrics.pushed(sizeof(Entry));
-            }
-            if (entered > 0) current = children[0];
-        }
-        if (entered == 0) {
-            do {
-                if (top == stack) return false;
-                current = *--top;
-                metrics.popped(sizeof(Entry));
-            } while (!(current.enter <= query.boxLimit()));
-        }
+        if (descend(stepper, ray, query.boxLimit(), current, top, metrics) && visitLeaf(current)) return true;
+        do {
+            if (top == stack) return false;
+            current = *--top;
+            metrics.popped(sizeof(Entry));
+        } while (!(current.enter <= query.boxLimit()));
     }
 }
 
 /// Visits leaves of triangles.
-template <class F, class Source, class Query, class Metrics>
+template <class S, class Source, class Query, class Metrics>
 struct TestTriangles {
-    const F& form;
+    const S& stepper;
     const Source& source;
     const PreparedRay& ray;
     Query& query;
     Metrics& metrics;
 
-    HWY_INLINE bool operator()(const Entered<typename F::Cursor>& leaf) const {
+    HWY_INLINE bool operator()(const Entered<typename S::Cursor>& leaf) const {
         PrimitiveRange range;
-        if constexpr (requires { form.primitiveRange(leaf.cursor, metrics); })
-            range = form.primitiveRange(leaf.cursor, metrics);
+        if constexpr (requires { stepper.primitiveRange(leaf.cursor, metrics); })
+            range = stepper.primitiveRange(leaf.cursor, metrics);
         else
-            range = form.primitiveRange(leaf.cursor);
+            range = stepper.primitiveRange(leaf.cursor);
         metrics.leafEntered(range);
         return source.test(range, ray, query);
     }
 };
 
-/// Walks one ray, which must not miss by definition, through the form.
-template <SteppableForm F, class Source, class Query, class Metrics>
-HWY_INLINE void traverse(const F& form, const Source& source, const PreparedRay& ray, Query& query,
+/// Walks one ray, which must not miss by definition, through a tree.
+template <SteppableTree S, class Source, class Query, class Metrics>
+HWY_INLINE void traverse(const S& stepper, const Source& source, const PreparedRay& ray, Query& query,
                          Metrics& metrics) {
-    const typename F::Ray formRay = form.prepare(ray);
-    Entered<typename F::Cursor> root;
-    if (form.enterRoot(formRay, query.boxLimit(), root, metrics))
-        traverseFrom(form, root, formRay, query, metrics,
-                     TestTriangles<F, Source, Query, Metrics>{form, source, ray, query, metrics});
+    const typename S::Ray stepperRay = stepper.prepare(ray);
+    Entered<typename S::Cursor> root;
+    if (stepper.enterRoot(stepperRay, query.boxLimit(), root, metrics))
+        traverseFrom(stepper, root, stepperRay, query, metrics,
+                     TestTriangles<S, Source, Query, Metrics>{stepper, source, ray, query, metrics});
 }
 
 }  // namespace bvhio::HWY_NAMESPACE

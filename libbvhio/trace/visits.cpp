@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "core/parallel.h"
+#include "trace/step_aabb.h"
 #include "trace/traverse.h"
 
 namespace bvhio {
@@ -12,23 +13,21 @@ namespace {
 constexpr size_t kRaysPerCount = 65536;
 
 /// The metrics policy that counts fetches of each record.
-struct VisitMetrics {
+struct VisitMetrics : NoMetrics {
+    explicit VisitMetrics(size_t pairs) : counts(pairs, 0) {}
     std::vector<uint32_t> counts;
 
     void recordFetched(size_t offset, size_t) { ++counts[offset / (2 * sizeof(Node))]; }
-    void boxesTested(uint32_t, BoxTestCost) {}
-    void leafEntered(PrimitiveRange) {}
-    void pushed(size_t) {}
-    void popped(size_t) {}
 };
 
 template <class Query>
 void visit(const AabbForm& form, const Scene& scene, std::span<const Ray> rays, VisitMetrics& metrics) {
+    const HWY_NAMESPACE::Stepper<AabbForm> stepper(form);
     const HWY_NAMESPACE::IndexedTriangles triangles{scene, form.primitives()};
     for (const Ray& given : rays) {
         const PreparedRay ray(given);
         Query query(ray);
-        if (!ray.missesByDefinition()) HWY_NAMESPACE::traverse(form, triangles, ray, query, metrics);
+        if (!ray.missesByDefinition()) HWY_NAMESPACE::traverse(stepper, triangles, ray, query, metrics);
     }
 }
 
@@ -40,7 +39,7 @@ std::vector<uint32_t> countVisits(const Scene& scene, const Bvh& bvh, std::span<
     std::vector<uint32_t> sums(bvh.nodes.size() / 2, 0);
     std::mutex mutex;
     parallelChunks(rays.size(), kRaysPerCount, [&](size_t begin, size_t end) {
-        VisitMetrics metrics{std::vector<uint32_t>(sums.size(), 0)};
+        VisitMetrics metrics(sums.size());
         const auto part = rays.subspan(begin, end - begin);
         if (query == Query::closest)
             visit<ClosestHit>(form, scene, part, metrics);

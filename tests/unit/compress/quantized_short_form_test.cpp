@@ -75,36 +75,6 @@ TEST(QuantizedShortForm, takesAnEighthOfFullBoxesAndLittleMore) {
     EXPECT_TRUE(encode(bvh).lastEntries().empty());
 }
 
-/// Where records are fetched.
-struct FetchMetrics : NoMetrics {
-    std::vector<size_t> offsets;
-    void recordFetched(size_t offset, size_t bytes) {
-        EXPECT_EQ(bytes, 8u);
-        offsets.push_back(offset);
-    }
-};
-
-// Caches are modelled by what is told: the glue, and the record that it leads to.
-TEST(QuantizedShortForm, tellsOfEachSlotThatIsFetched) {
-    Bvh bvh = test::treeOfPairs({{0, 2}, {2, 4}, {4, 6}});
-    bvh.slots = {2, 2, std::vector<uint32_t>{0, SlotMap::kGlue | 1, 1, 2}};
-    const QuantizedShortForm form = encode(bvh);
-    ASSERT_EQ(form.slots().size(), 4u);
-    EXPECT_TRUE(form.slots()[1].isGlue());
-    const Ray ray{{0.5f, 0.5f, -1}, 0, {0, 0, 1}, 10};
-    const PreparedRay prepared(ray);
-    const RayFrame frame = form.prepare(prepared);
-    FetchMetrics metrics;
-    Entered<QuantizedShortForm::Cursor> node, children[2];
-    ASSERT_TRUE(form.enterRoot(frame, 10, node, metrics));
-    for (int depth = 0; depth < 3; ++depth) {
-        ASSERT_EQ(form.step(node, frame, 10, children, metrics), 2);
-        node = children[0];
-    }
-    EXPECT_TRUE(form.isLeaf(node.cursor));
-    EXPECT_EQ(metrics.offsets, (std::vector<size_t>{0, 8, 16, 24}));
-}
-
 TEST(QuantizedShortForm, keepsClustersThatFitAndMakesOthersAnew) {
     const Scene scene = test::sphereScene(30, 20);
     Bvh bvh = builders()[0].function(scene, {.costs = {}, .maxLeafSize = 2});
@@ -131,8 +101,7 @@ TEST(QuantizedShortForm, holdsLeavesOfUpTo32AndDividesLargerOnes) {
         const QuantizedShortForm form = encode({AlignedVector<Node>{{box, 0, size}, {}}, firstEntries(size)});
         EXPECT_TRUE(form.slots().empty());
         EXPECT_EQ(form.decode().nodes[0].primitiveCount, size);
-        const QuantizedShortForm::Cursor cursor{{}, 0, 0, 256};
-        EXPECT_EQ(form.primitiveRange(cursor).count, size);
+        EXPECT_EQ(form.countFrom(form.firstEntryOf(0, form.firstLeaf())), size);
     }
     for (const uint32_t size : {33u, 1000u, kMaxLeafSize}) {
         const QuantizedShortForm form = encode({AlignedVector<Node>{{box, 0, size}, {}}, firstEntries(size)});

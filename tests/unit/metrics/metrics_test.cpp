@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/test_scenes.h"
+#include "trace/step_aabb.h"
 #include "trace/trace.h"
 
 namespace bvhio {
@@ -64,7 +65,7 @@ TEST(Metrics, countPushesPopsAndWhatTheyMove) {
     const TraversalCounts counts = Tracer(two.scene, two.bvh).measure({&along, 1}, Query::closest).counts;
     EXPECT_EQ(counts.leaves, 2u);
     EXPECT_EQ(counts.stackOperations, 2u);
-    EXPECT_EQ(counts.stackBytes, 2 * sizeof(Entered<AabbForm::Cursor>));
+    EXPECT_EQ(counts.stackBytes, 2 * sizeof(HWY_NAMESPACE::Entered<HWY_NAMESPACE::AabbCursor>));
 }
 
 TEST(Metrics, lcvOfEqualRaysIsZero) {

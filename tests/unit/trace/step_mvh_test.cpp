@@ -1,4 +1,4 @@
-#include "compress/mvh_step.h"
+#include "trace/step_mvh.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,8 @@
 
 namespace bvhio {
 namespace {
+
+using namespace HWY_NAMESPACE;
 
 /// A node as the boxes of one node after the other tell it.
 struct Reference {

@@ -40,17 +40,26 @@
 // accepts B, the intersection of the intervals found here is not empty, and begins no later. For a ray that
 // is not regular, places are multiplied by the same reciprocals as differences are in clipToBox, and rounding
 // is monotone.
-#pragma once
+// Per target, like trace/traverse.h.
+#if defined(BVHIO_TRACE_RAY_FRAME_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BVHIO_TRACE_RAY_FRAME_H
+#undef BVHIO_TRACE_RAY_FRAME_H
+#else
+#define BVHIO_TRACE_RAY_FRAME_H
+#endif
+
+#include <hwy/highway.h>
 
 #include <array>
 #include <cstring>
 #include <limits>
 
-#include "compress/form_concept.h"
 #include "core/intersect.h"
+#include "trace/stepper.h"
 #include "tree/bvh.h"
 
-namespace bvhio {
+HWY_BEFORE_NAMESPACE();
+namespace bvhio::HWY_NAMESPACE {
 
 /// Lanes x, y, z and one more.
 using Four = float __attribute__((vector_size(16)));
@@ -58,14 +67,14 @@ using Four = float __attribute__((vector_size(16)));
 using FourInts = int32_t __attribute__((vector_size(16)));
 
 /// As the processor's instructions: b where either is a NaN.
-BVHIO_INLINE Four min(Four a, Four b) {
+HWY_INLINE Four min(Four a, Four b) {
 #if defined(__SSE__)
     return Four(_mm_min_ps(__m128(a), __m128(b)));
 #else
     return a < b ? a : b;
 #endif
 }
-BVHIO_INLINE Four max(Four a, Four b) {
+HWY_INLINE Four max(Four a, Four b) {
 #if defined(__SSE__)
     return Four(_mm_max_ps(__m128(a), __m128(b)));
 #else
@@ -79,14 +88,14 @@ struct PlacedBox {
     Four min, max;
 
     /// How far the planes lie apart; negative where the ray goes down an axis, 0 in lane 3.
-    BVHIO_INLINE Four size() const { return max - min; }
+    HWY_INLINE Four size() const { return max - min; }
 };
 
 /// `of` in the lanes whose bits are all set in the mask, 0 in the others; and the reverse.
-BVHIO_INLINE Four where(FourInts mask, Four of) {
+HWY_INLINE Four where(FourInts mask, Four of) {
     return Four(FourInts(of) & mask);
 }
-BVHIO_INLINE Four exceptWhere(FourInts mask, Four of) {
+HWY_INLINE Four exceptWhere(FourInts mask, Four of) {
 #if defined(__SSE__)
     return Four(_mm_andnot_ps(__m128(mask), __m128(of)));  // g++ makes a slow blend of the other
 #else
@@ -98,9 +107,8 @@ BVHIO_INLINE Four exceptWhere(FourInts mask, Four of) {
 /// far those that move lie inside it, the masks whose they are: set for the right one's. The other one keeps
 /// the parent's. Whatever does not need `box` is done first: a ray going down waits for one box after the
 /// other.
-BVHIO_INLINE void placeSiblings(const PlacedBox& box, Four minFractions, Four maxFractions,
-                                FourInts minIsRights, FourInts maxIsRights, PlacedBox& left,
-                                PlacedBox& right) {
+HWY_INLINE void placeSiblings(const PlacedBox& box, Four minFractions, Four maxFractions,
+                              FourInts minIsRights, FourInts maxIsRights, PlacedBox& left, PlacedBox& right) {
     const Four size = box.size();
     left.min = box.min + exceptWhere(minIsRights, minFractions) * size;
     left.max = box.max - exceptWhere(maxIsRights, maxFractions) * size;
@@ -114,28 +122,30 @@ struct EnteredOfTwo {
     uint32_t entered;  // bit 0: the first, bit 1: the second
 };
 
-/// Which of two boxes a ray enters as `step` of a form tells it: the nearer first. `enter(child, entered)`
-/// writes one.
-template <class C, class Enter>
-BVHIO_INLINE int enterInOrder(const EnteredOfTwo& found, const Enter& enter, Entered<C>* children) {
+/// Ends a step to two children: the nearer goes to `next`, the farther one is pushed. `enter(child, entered)`
+/// writes one. Returns false when neither is entered.
+template <class Cursor, class Enter, class Metrics>
+HWY_INLINE bool enterInOrder(const EnteredOfTwo& found, const Enter& enter, Entered<Cursor>& next,
+                             Entered<Cursor>*& top, Metrics& metrics) {
     switch (found.entered) {
         case 0:
-            return 0;
+            return false;
         case 1:
-            enter(0, children[0]);
-            return 1;
+            enter(0, next);
+            return true;
         case 2:
-            enter(1, children[0]);
-            return 1;
+            enter(1, next);
+            return true;
         default:
             if (found.enter[1] < found.enter[0]) {
-                enter(1, children[0]);
-                enter(0, children[1]);
+                enter(0, *top++);
+                enter(1, next);
             } else {
-                enter(0, children[0]);
-                enter(1, children[1]);
+                enter(1, *top++);
+                enter(0, next);
             }
-            return 2;
+            metrics.pushed(sizeof(Entered<Cursor>));
+            return true;
     }
 }
 
@@ -144,7 +154,7 @@ BVHIO_INLINE int enterInOrder(const EnteredOfTwo& found, const Enter& enter, Ent
 class RayFrame {
   public:
     /// For a tree that has `bounds` at its root.
-    BVHIO_INLINE RayFrame(const PreparedRay& ray, const Aabb& bounds) : ray_(ray) {
+    HWY_INLINE RayFrame(const PreparedRay& ray, const Aabb& bounds) : ray_(ray) {
         const Four origin{ray.origin.x, ray.origin.y, ray.origin.z, 0};
         const Four direction{ray.direction.x, ray.direction.y, ray.direction.z, 1};
         const Four lower = Four{bounds.min.x, bounds.min.y, bounds.min.z, ray.tMin} - origin;
@@ -184,7 +194,7 @@ class RayFrame {
     }
 
     /// The part of a regular ray in the box, up to `tLimit`.
-    BVHIO_INLINE RayInterval clipRegular(const PlacedBox& box, float tLimit) const {
+    HWY_INLINE RayInterval clipRegular(const PlacedBox& box, float tLimit) const {
         const Four first = box.min, last = box.max + twiceMargin_;
         const Four near = min(first, last), far = max(first, last);
         const auto larger = [](float a, float b) { return a > b ? a : b; };
@@ -194,7 +204,7 @@ class RayFrame {
     }
 
     /// Which of two boxes a regular ray enters before `tLimit`, and where.
-    BVHIO_INLINE EnteredOfTwo clipRegular(const PlacedBox& a, const PlacedBox& b, float tLimit) const {
+    HWY_INLINE EnteredOfTwo clipRegular(const PlacedBox& a, const PlacedBox& b, float tLimit) const {
 #if defined(__SSE__)
         const Four lastA = a.max + twiceMargin_, lastB = b.max + twiceMargin_;
         const __m128 nearA(min(a.min, lastA)), farA(max(a.min, lastA));
@@ -230,10 +240,10 @@ class RayFrame {
     }
 
     /// For any ray.
-    BVHIO_INLINE RayInterval clip(const PlacedBox& box, float tLimit) const {
+    HWY_INLINE RayInterval clip(const PlacedBox& box, float tLimit) const {
         return regular_ ? clipRegular(box, tLimit) : clipIrregular(box, tLimit);
     }
-    BVHIO_INLINE EnteredOfTwo clip(const PlacedBox& a, const PlacedBox& b, float tLimit) const {
+    HWY_INLINE EnteredOfTwo clip(const PlacedBox& a, const PlacedBox& b, float tLimit) const {
         return regular_ ? clipRegular(a, b, tLimit) : clipIrregular(a, b, tLimit);
     }
 
@@ -242,10 +252,10 @@ class RayFrame {
     static constexpr float kFar = 0x1p100f;
     static_assert(kMaxDepth <= 96, "the margin is for 96 steps");
 
-    static BVHIO_INLINE Four marginOf(Four farther) {
+    static HWY_INLINE Four marginOf(Four farther) {
         return farther * 0x1p-17f + 0x1p-120f;
     }
-    static BVHIO_INLINE bool areAll(FourInts lanes) {
+    static HWY_INLINE bool areAll(FourInts lanes) {
 #if defined(__SSE__)
         return _mm_movemask_ps(__m128(lanes)) == 15;
 #else
@@ -256,7 +266,7 @@ class RayFrame {
         return {{a.enter, b.enter}, uint32_t(!a.isEmpty()) | uint32_t(!b.isEmpty()) << 1};
     }
 
-    BVHIO_INLINE void shift(Four first, Four last, Four margin, float start) {
+    HWY_INLINE void shift(Four first, Four last, Four margin, float start) {
         root_ = {first - margin, last - margin};
         twiceMargin_ = margin + margin;
         // Lane 3 has no size, so it stays as it is; as a test sees it, it reaches from the start to infinity.
@@ -282,4 +292,7 @@ class RayFrame {
     std::array<float, 3> unbounded_{};  // a NaN for an axis that says nothing
 };
 
-}  // namespace bvhio
+}  // namespace bvhio::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,4 +1,4 @@
-#include "compress/ray_frame.h"
+#include "trace/ray_frame.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,8 @@
 
 namespace bvhio {
 namespace {
+
+using namespace HWY_NAMESPACE;
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 

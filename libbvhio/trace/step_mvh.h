@@ -9,48 +9,20 @@
 // way down is clipped by the arithmetic of clipToPlanes, so the interval is what that finds for the box that
 // all of them bound.
 //
-// The vectors are the compiler's, for any processor; those of one without such come out as loops.
-#pragma once
+// The vectors are the compiler's, for any processor; those of one without such come out as loops. Per target,
+// like trace/traverse.h.
+#if defined(BVHIO_TRACE_STEP_MVH_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BVHIO_TRACE_STEP_MVH_H
+#undef BVHIO_TRACE_STEP_MVH_H
+#else
+#define BVHIO_TRACE_STEP_MVH_H
+#endif
 
-#include <array>
+#include "compress/mvh_form.h"
+#include "trace/ray_frame.h"
 
-#include "compress/mvh_tree.h"
-#include "compress/ray_frame.h"
-
-namespace bvhio {
-
-/// What steps look up, by the rule alone: one for all trees that share it.
-class MvhTables {
-  public:
-    explicit MvhTables(const MvhRule& rule) : axes(rule.axes) {
-        for (uint32_t codes = 0; codes < 16; ++codes)
-            for (uint32_t lane = 0; lane < 4; ++lane) {
-                fill(rule, codes >> (lane < 2 ? 0 : 2) & 3, lane, children[codes]);
-                if (lane < 2) fill(rule, codes >> 2 * lane & 3, lane, grandchildren[codes]);
-            }
-    }
-
-    /// For each lane: how far a ray that goes up an axis has the near plane moved, as a part of the size;
-    /// which bits make that the far plane's; and all ones where the code is none.
-    template <size_t lanes>
-    struct Lanes {
-        alignas(4 * lanes) std::array<float, lanes> low;
-        std::array<uint32_t, lanes> swap, none;
-    };
-    uint32_t axes;
-    Lanes<4> children[16];       // by a nibble: left, left, right, right
-    Lanes<2> grandchildren[16];  // by a nibble: left, right
-
-  private:
-    template <size_t lanes>
-    static void fill(const MvhRule& rule, uint32_t code, uint32_t lane, Lanes<lanes>& to) {
-        const float zeta = code == kMvhBoth ? rule.zetaOfBoth : rule.zeta;
-        to.low[lane] = code & kMvhLow ? zeta : 0;
-        to.swap[lane] =
-            std::bit_cast<uint32_t>(to.low[lane]) ^ std::bit_cast<uint32_t>(code & kMvhHigh ? zeta : 0.0f);
-        to.none[lane] = code == kMvhNone ? ~0u : 0;
-    }
-};
+HWY_BEFORE_NAMESPACE();
+namespace bvhio::HWY_NAMESPACE {
 
 /// A ray with what its steps need, by axis and for four lanes.
 struct MvhRay {
@@ -85,7 +57,7 @@ struct MvhPart {
 
     MvhPart() = default;
     /// Of a root.
-    BVHIO_INLINE MvhPart(const MvhRay& ray, const Aabb& box, RayInterval interval) {
+    HWY_INLINE MvhPart(const MvhRay& ray, const Aabb& box, RayInterval interval) {
         for (int a = 0; a < 3; ++a) {
             const bool backwards = ray.axes[a].backwards[0] != 0;
             near[a] = component(backwards ? box.max : box.min, a);
@@ -94,7 +66,7 @@ struct MvhPart {
         near[3] = interval.enter;
         far[3] = -interval.exit;
     }
-    BVHIO_INLINE float enter() const { return near[3]; }
+    HWY_INLINE float enter() const { return near[3]; }
 };
 
 /// In which order a step visits its lanes, by what is swapped (bit 0: left and right, 1 and 2: those below
@@ -123,7 +95,7 @@ struct MvhStep {
     MvhPart parts[4];  // by lane
     FourInts turns;
 
-    BVHIO_INLINE uint32_t lane(uint32_t i) const { return lanes >> 8 * i & 3; }
+    HWY_INLINE uint32_t lane(uint32_t i) const { return lanes >> 8 * i & 3; }
 };
 
 /// The vectors of a step.
@@ -132,14 +104,14 @@ struct MvhLanes {
     FourInts turn;  // minus whose turn it is
 
     template <int lane>
-    static BVHIO_INLINE Four all(Four v) {
+    static HWY_INLINE Four all(Four v) {
         return __builtin_shufflevector(v, v, lane, lane, lane, lane);
     }
-    static BVHIO_INLINE Four all(float v) { return Four{v, v, v, v}; }
-    static BVHIO_INLINE FourInts all(int32_t v) { return FourInts{v, v, v, v}; }
-    static BVHIO_INLINE Four blend(FourInts mask, Four a, Four b) { return mask ? a : b; }
+    static HWY_INLINE Four all(float v) { return Four{v, v, v, v}; }
+    static HWY_INLINE FourInts all(int32_t v) { return FourInts{v, v, v, v}; }
+    static HWY_INLINE Four blend(FourInts mask, Four a, Four b) { return mask ? a : b; }
 
-    BVHIO_INLINE MvhLanes(const MvhPart& part, uint32_t startTurn, float tLimit)
+    HWY_INLINE MvhLanes(const MvhPart& part, uint32_t startTurn, float tLimit)
         : near{all<0>(part.near), all<1>(part.near), all<2>(part.near)},
           far{all<0>(part.far), all<1>(part.far), all<2>(part.far)},
           enter(all<3>(part.near)),
@@ -148,8 +120,8 @@ struct MvhLanes {
 
     /// Goes from nodes to children: `low`, `swap` and `none` are the children's of MvhTables::Lanes. Returns
     /// all ones where the ray goes down the axis that is cut.
-    BVHIO_INLINE FourInts descend(const MvhRay& ray, uint32_t axes, FourInts low, FourInts swap,
-                                  FourInts none) {
+    HWY_INLINE FourInts descend(const MvhRay& ray, uint32_t axes, FourInts low, FourInts swap,
+                                FourInts none) {
         Four sizes[3], lengths[3];
         for (int a = 0; a < 3; ++a) {
             sizes[a] = far[a] - near[a];
@@ -187,7 +159,7 @@ struct MvhLanes {
 
     /// Whether the lanes that `neighbours` holds are nearer than these. Builders put the lower child to the
     /// left, along the axis that is cut: that decides between equal ones.
-    BVHIO_INLINE FourInts isAfter(Four neighbours, FourInts backwards) const {
+    HWY_INLINE FourInts isAfter(Four neighbours, FourInts backwards) const {
         return (neighbours < enter) | (backwards & (neighbours == enter));
     }
 };
@@ -196,7 +168,7 @@ struct MvhLanes {
 struct MvhRows {
     Four of[4];
 
-    BVHIO_INLINE MvhRows(Four a, Four b, Four c, Four d) {
+    HWY_INLINE MvhRows(Four a, Four b, Four c, Four d) {
         const Four abLow = __builtin_shufflevector(a, b, 0, 4, 1, 5),
                    cdLow = __builtin_shufflevector(c, d, 0, 4, 1, 5),
                    abHigh = __builtin_shufflevector(a, b, 2, 6, 3, 7),
@@ -209,7 +181,7 @@ struct MvhRows {
 };
 
 /// A bit for each lane.
-BVHIO_INLINE uint32_t bitsOf(FourInts mask) {
+HWY_INLINE uint32_t bitsOf(FourInts mask) {
 #if defined(__SSE__)
     return uint32_t(_mm_movemask_ps(__m128(mask)));
 #else
@@ -220,9 +192,9 @@ BVHIO_INLINE uint32_t bitsOf(FourInts mask) {
 /// Tests the children of a node against the ray, and at once theirs where `twoLevels`. `codes` is the node's
 /// nibble, and with two levels `leftCodes` and `rightCodes` are the children's, else 0. A child that is
 /// missed has children that are missed.
-BVHIO_INLINE void stepMvh(const MvhTables& tables, const MvhRay& ray, uint32_t codes, uint32_t leftCodes,
-                          uint32_t rightCodes, bool twoLevels, const MvhPart& part, uint32_t turn,
-                          float tLimit, MvhStep& step) {
+HWY_INLINE void stepMvh(const MvhTables& tables, const MvhRay& ray, uint32_t codes, uint32_t leftCodes,
+                        uint32_t rightCodes, bool twoLevels, const MvhPart& part, uint32_t turn, float tLimit,
+                        MvhStep& step) {
     MvhLanes lanes(part, turn, tLimit);
     const auto load4 = [](const auto& values) {
         FourInts loaded;
@@ -262,4 +234,91 @@ BVHIO_INLINE void stepMvh(const MvhTables& tables, const MvhRay& ray, uint32_t c
     }
 }
 
-}  // namespace bvhio
+template <>
+class Stepper<MvhForm> {
+  public:
+    using Ray = MvhRay;
+    static constexpr int kMaxPushed = 3;
+    /// Per box, as the planes of both children are made together: half of 3 sizes, 2 products and 4 planes;
+    /// 2 differences and 2 products. Half of 2 comparisons for the axis; 2 for the interval, 2 to compare.
+    static constexpr BoxTestCost kBoxTestCost{9, 5};
+
+    class Cursor {
+      public:
+        Cursor() = default;
+        HWY_INLINE Cursor(const MvhPart& whole, uint32_t number, uint32_t turn)
+            : part(whole), node_(uint64_t(turn) << 32 | number) {}
+        // As they were written: what was just written in other pieces can't be read for a while.
+        HWY_INLINE Cursor(const Cursor& other) : part(other.part), node_(other.node_) {}
+        HWY_INLINE Cursor& operator=(const Cursor& other) {
+            part = other.part;
+            node_ = other.node_;
+            return *this;
+        }
+
+        HWY_INLINE uint32_t node() const { return uint32_t(node_); }
+        HWY_INLINE uint32_t turn() const { return uint32_t(node_ >> 32); }
+        MvhPart part;
+
+      private:
+        uint64_t node_;  // the upper half is whose turn it is
+    };
+
+    explicit Stepper(const MvhForm& form)
+        : form_(form), tables_(form.tables()), shape_(form.shape()), words_(form.words().data()) {}
+
+    MvhRay prepare(const PreparedRay& ray) const { return MvhRay(ray); }
+
+    template <class Metrics>
+    HWY_INLINE bool enterRoot(const MvhRay& ray, float tLimit, Entered<Cursor>& root,
+                              Metrics& metrics) const {
+        metrics.boxesTested(1, kFullBoxTestCost);
+        const RayInterval interval = clipToBox(ray.ray, form_.bounds(), tLimit);
+        root = {{MvhPart(ray, form_.bounds(), interval), 0, 0}, interval.enter};
+        return !interval.isEmpty();
+    }
+
+    /// A record is the word that has a node's nibble; those of siblings count as one.
+    template <class Metrics>
+    HWY_INLINE bool step(const Entered<Cursor>& from, const MvhRay& ray, float tLimit, Entered<Cursor>& next,
+                         Entered<Cursor>*& top, Metrics& metrics) const {
+        const uint32_t node = from.cursor.node(), left = 2 * node + 1;
+        const bool twoLevels = left + 1 < shape_.innerCount();
+        metrics.boxesTested(twoLevels ? 6 : 2, kBoxTestCost);
+        metrics.recordFetched(size_t(node) / 8 * sizeof(uint32_t), sizeof(uint32_t));
+        if (twoLevels) metrics.recordFetched(size_t(left) / 8 * sizeof(uint32_t), sizeof(uint32_t));
+        MvhStep step;
+        stepMvh(tables_, ray, mvhNibble(words_, node), twoLevels ? mvhNibble(words_, left) : 0,
+                twoLevels ? mvhNibble(words_, left + 1) : 0, twoLevels, from.cursor.part, from.cursor.turn(),
+                tLimit, step);
+        const auto enter = [&](uint32_t i, Entered<Cursor>& entered) HWY_ATTR {
+            const uint32_t lane = step.lane(i);
+            const uint32_t child = twoLevels ? 2 * left + 1 + lane : left + lane / 2;
+            entered.cursor = {step.parts[lane], child, uint32_t(step.turns[lane])};
+            entered.enter = step.parts[lane].enter();
+        };
+        for (uint32_t i = step.count; i > 1; --i) {
+            enter(i - 1, *top++);
+            metrics.pushed(sizeof(Entered<Cursor>));
+        }
+        enter(0, next);  // means nothing where none is entered
+        return step.count != 0;
+    }
+
+    HWY_INLINE bool isLeaf(const Cursor& cursor) const { return shape_.isLeaf(cursor.node()); }
+    HWY_INLINE PrimitiveRange primitiveRange(const Cursor& cursor) const {
+        return shape_.primitiveRange(cursor.node());
+    }
+
+  private:
+    const MvhForm& form_;
+    const MvhTables& tables_;
+    const MvhShape& shape_;
+    const uint32_t* words_;
+};
+static_assert(SteppableTree<Stepper<MvhForm>>);
+
+}  // namespace bvhio::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

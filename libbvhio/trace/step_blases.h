@@ -1,0 +1,214 @@
+// How rays step through the bottom level of the two-level form. Per target, like trace/traverse.h.
+//
+// A BlasStepper steps through one tree of the level, from its root on. The root's box is stored above it,
+// in a leaf of the top level or with an instance: how the ray enters that box is its RootEntry.
+#if defined(BVHIO_TRACE_STEP_BLASES_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BVHIO_TRACE_STEP_BLASES_H
+#undef BVHIO_TRACE_STEP_BLASES_H
+#else
+#define BVHIO_TRACE_STEP_BLASES_H
+#endif
+
+#include "compress/blases.h"
+#include "trace/ray_frame.h"
+#include "trace/step_aabb.h"
+#include "trace/step_quantized.h"
+#include "trace/step_ssh.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bvhio::HWY_NAMESPACE {
+
+/// A ray that enters the box of a BLAS's root before `tLimit`. The box is given in coordinates, or by its
+/// places in a frame where it has been placed already.
+class RootEntry {
+  public:
+    HWY_INLINE RootEntry(const PreparedRay& ray, const Aabb& box, float enter, float tLimit)
+        : ray_(&ray), box_(&box), enter_(enter), tLimit_(tLimit) {}
+    HWY_INLINE RootEntry(const RayFrame& frame, const PlacedBox& placed, float enter, float tLimit)
+        : frame_(&frame), placed_(&placed), enter_(enter), tLimit_(tLimit) {}
+
+    HWY_INLINE float enter() const { return enter_; }
+    /// Where the ray leaves the box.
+    HWY_INLINE float exit() const {
+        return placed_ != nullptr ? frame_->clip(*placed_, tLimit_).exit
+                                  : clipToBox(*ray_, *box_, tLimit_).exit;
+    }
+    /// The box as the ray sees it in `frame`, which is the frame where the box has been placed if it has.
+    HWY_INLINE PlacedBox place(const RayFrame& frame) const {
+        return placed_ != nullptr ? *placed_ : frame.place(*box_);
+    }
+
+  private:
+    const PreparedRay* ray_ = nullptr;
+    const Aabb* box_ = nullptr;
+    const RayFrame* frame_ = nullptr;
+    const PlacedBox* placed_ = nullptr;
+    float enter_, tLimit_;
+};
+
+/// Steps through the BLAS that a leaf of the top level has. Beside what a stepper offers:
+///
+/// - prepare: makes its Ray of a PreparedRay, given the box of the top level's root, or of the mesh.
+/// - root: where traversal starts, as the root's box is entered.
+template <class Blases>
+class BlasStepper;
+
+/// The root of one tree of many, which lies behind the nodes.
+template <class Links, class Metrics>
+HWY_INLINE const typename Links::Root& fetchRoot(const LinkedBlases<Links>& blases, uint32_t number,
+                                                 Metrics& metrics) {
+    using Root = typename Links::Root;
+    metrics.recordFetched(blases.form().nodeBytes() + number * sizeof(Root), sizeof(Root));
+    return blases.roots()[number];
+}
+
+template <>
+class BlasStepper<AabbBlases> : public AabbPairs<AabbCursor> {
+  public:
+    BlasStepper(const AabbBlases& blases, PrimitiveRange leaf)
+        : AabbPairs(blases.form()), blases_(blases), number_(leaf.first) {}
+
+    static const PreparedRay& prepare(const PreparedRay& ray, const Aabb&) { return ray; }
+
+    template <class Metrics>
+    HWY_INLINE Entered<Cursor> root(const RootEntry& entry, const PreparedRay&, Metrics& metrics) const {
+        const AabbRoot& stored = fetchRoot(blases_, number_, metrics);
+        return {{stored.first, stored.primitiveCount}, entry.enter()};
+    }
+
+  private:
+    const AabbBlases& blases_;
+    uint32_t number_;
+};
+
+template <>
+class BlasStepper<SshBlases> : public Stepper<SshForm> {
+  public:
+    BlasStepper(const SshBlases& blases, PrimitiveRange leaf)
+        : Stepper(blases.form()), blases_(blases), number_(leaf.first) {}
+
+    static SshRay prepare(const PreparedRay& ray, const Aabb&) { return SshRay(ray); }
+
+    template <class Metrics>
+    HWY_INLINE Entered<Cursor> root(const RootEntry& entry, const SshRay&, Metrics& metrics) const {
+        return {{fetchRoot(blases_, number_, metrics), entry.exit()}, entry.enter()};
+    }
+
+  private:
+    const SshBlases& blases_;
+    uint32_t number_;
+};
+
+/// Boxes are relative to the root's.
+template <>
+class BlasStepper<QuantizedBlases> : public Stepper<QuantizedForm> {
+  public:
+    BlasStepper(const QuantizedBlases& blases, PrimitiveRange leaf)
+        : Stepper(blases.form()), blases_(blases), number_(leaf.first) {}
+
+    static RayFrame prepare(const PreparedRay& ray, const Aabb& bounds) { return {ray, bounds}; }
+
+    template <class Metrics>
+    HWY_INLINE Entered<Cursor> root(const RootEntry& entry, const RayFrame& ray, Metrics& metrics) const {
+        const QuantizedRoot& stored = fetchRoot(blases_, number_, metrics);
+        return {{entry.place(ray), stored.word, uint8_t(stored.more)}, entry.enter()};
+    }
+
+  private:
+    const QuantizedBlases& blases_;
+    uint32_t number_;
+};
+
+/// What a code takes off a box, as a step loads it.
+struct alignas(16) MvhMove {
+    float min[4], max[4];
+};
+constexpr std::array<MvhMove, kMvhCodes> mvhMoves() {
+    std::array<MvhMove, kMvhCodes> moves{};
+    for (uint32_t code = 0; code < kMvhCodes; ++code) {
+        const MvhCut cut = mvhCut(code);
+        for (int axis = 0; axis < 3; ++axis) {
+            moves[code].min[axis] = cut.min[axis];
+            moves[code].max[axis] = cut.max[axis];
+        }
+    }
+    return moves;
+}
+inline constexpr std::array<MvhMove, kMvhCodes> kMvhMoves = mvhMoves();
+
+/// What all nodes of a tree have in common is here, so that a cursor has two numbers only.
+template <>
+class BlasStepper<MvhBlases> {
+  public:
+    using Ray = RayFrame;
+    static constexpr int kMaxPushed = 1;
+
+    struct Cursor {
+        PlacedBox box;
+        uint32_t leaf, leaves;  // the first below this node, counted from the tree's first, and how many
+    };
+
+    /// `run` are the primitives that the tree is over.
+    HWY_INLINE BlasStepper(const MvhBlases& blases, PrimitiveRange run)
+        : codes_(blases.codes().data()),
+          run_(run),
+          leafSize_(blases.shape().leafSize()),
+          root_(blases.shape().root(run)) {}
+
+    static RayFrame prepare(const PreparedRay& ray, const Aabb& bounds) { return {ray, bounds}; }
+
+    template <class Metrics>
+    HWY_INLINE Entered<Cursor> root(const RootEntry& entry, const RayFrame& ray, Metrics&) const {
+        return {{entry.place(ray), 0, root_.leaves}, entry.enter()};
+    }
+
+    /// Per pair: 3 differences for the size of the box, 6 products and 6 sums for the planes of each child, 3
+    /// sums a child for the margin.
+    template <class Metrics>
+    HWY_INLINE bool step(const Entered<Cursor>& from, const RayFrame& ray, float tLimit,
+                         Entered<Cursor>& next, Entered<Cursor>*& top, Metrics& metrics) const {
+        const uint32_t leaf = from.cursor.leaf, leaves = from.cursor.leaves, leftLeaves = (leaves + 1) / 2;
+        const uint32_t at = root_.slot + leaf + leftLeaves;  // as MvhRun::codes
+        metrics.recordFetched(at, 1);
+        metrics.boxesTested(1, BoxTestCost{17, 12});
+        metrics.boxesTested(1, BoxTestCost{16, 12});
+        const uint32_t codes = codes_[at];
+        const PlacedBox& box = from.cursor.box;
+        const Four size = box.size();
+        const PlacedBox left = cut(box, size, kMvhMoves[codes & 15]),
+                        right = cut(box, size, kMvhMoves[codes >> 4]);
+        const EnteredOfTwo found = ray.clip(left, right, tLimit);
+        const auto enter = [&](int child, Entered<Cursor>& entered) HWY_ATTR {
+            entered = child == 0
+                          ? Entered<Cursor>{{left, leaf, leftLeaves}, found.enter[0]}
+                          : Entered<Cursor>{{right, leaf + leftLeaves, leaves - leftLeaves}, found.enter[1]};
+        };
+        return enterInOrder(found, enter, next, top, metrics);
+    }
+
+    HWY_INLINE bool isLeaf(const Cursor& cursor) const { return cursor.leaves <= 1; }
+    HWY_INLINE PrimitiveRange primitiveRange(const Cursor& cursor) const {
+        const uint32_t before = cursor.leaf * leafSize_, left = run_.count - before;
+        return {run_.first + before, left < leafSize_ ? left : leafSize_};
+    }
+
+  private:
+    static HWY_INLINE PlacedBox cut(const PlacedBox& box, Four size, const MvhMove& move) {
+        Four min, max;
+        std::memcpy(&min, move.min, sizeof min);
+        std::memcpy(&max, move.max, sizeof max);
+        return {box.min + min * size, box.max - max * size};
+    }
+
+    const uint8_t* codes_;
+    PrimitiveRange run_;
+    uint32_t leafSize_;
+    MvhRun root_;
+};
+static_assert(SteppableNodes<BlasStepper<AabbBlases>> && SteppableNodes<BlasStepper<SshBlases>> &&
+              SteppableNodes<BlasStepper<QuantizedBlases>> && SteppableNodes<BlasStepper<MvhBlases>>);
+
+}  // namespace bvhio::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

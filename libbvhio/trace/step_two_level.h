@@ -1,0 +1,165 @@
+// Traversal of the two-level form: the one loop twice. A leaf of the top level is a root of the bottom level,
+// from which the same loop goes on. The order in which nodes are met is that of one stack, since what was
+// pushed earlier waits until a subtree is done. Per target, like trace/traverse.h.
+//
+// The loops of the levels are compiled apart and call each other: there is one for each form of a level,
+// not one for each pair of forms.
+#if defined(BVHIO_TRACE_STEP_TWO_LEVEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BVHIO_TRACE_STEP_TWO_LEVEL_H
+#undef BVHIO_TRACE_STEP_TWO_LEVEL_H
+#else
+#define BVHIO_TRACE_STEP_TWO_LEVEL_H
+#endif
+
+#include "compress/two_level_form.h"
+#include "metrics/metrics.h"
+#include "trace/step_blases.h"
+#include "trace/step_tlas.h"
+#include "trace/traverse.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bvhio::HWY_NAMESPACE {
+
+/// What a ray does in the leaves of a top level: `visit(context, leaf, entry)` is called for each that is
+/// entered and returns true when the query is done.
+struct LeafVisitor {
+    const void* context;
+    bool (*visit)(const void* context, PrimitiveRange leaf, const RootEntry& entry);
+
+    /// Calls context(leaf, entry).
+    template <class Context>
+    static LeafVisitor of(const Context& context) {
+        return {&context, [](const void* self, PrimitiveRange leaf, const RootEntry& entry)
+                              HWY_ATTR { return (*static_cast<const Context*>(self))(leaf, entry); }};
+    }
+};
+
+template <class Tlas, class Query, class Metrics>
+HWY_NOINLINE void traverseTlas(const TlasStepper<Tlas>& tlas,
+                               const Entered<typename TlasStepper<Tlas>::Cursor>& root,
+                               const typename TlasStepper<Tlas>::Ray& ray, Query& query, Metrics& metrics,
+                               LeafVisitor visitor) {
+    const auto visitLeaf = [&](const Entered<typename TlasStepper<Tlas>::Cursor>& leaf) HWY_ATTR {
+        return visitor.visit(visitor.context, tlas.primitiveRange(leaf.cursor),
+                             tlas.entry(leaf, ray, query.boxLimit()));
+    };
+    traverseFrom(tlas, root, ray, query, metrics, visitLeaf);
+}
+
+/// Walks through BLASes with a ray that is prepared for them. A query of a tree that is not an instance is
+/// asked as from within one, so that both share their loops.
+template <class Blases, class Source, class Query, class Metrics>
+HWY_NOINLINE bool traverseBlas(const Blases& blases, PrimitiveRange leaf, const RootEntry& entry,
+                               const typename BlasStepper<Blases>::Ray& blasRay, const Source& source,
+                               const PreparedRay& ray, InstanceQuery<Query>& query, Metrics& metrics) {
+    using Tree = BlasStepper<Blases>;
+    const Tree tree(blases, leaf);
+    return traverseFrom(
+        tree, tree.root(entry, blasRay, metrics), blasRay, query, metrics,
+        TestTriangles<Tree, Source, InstanceQuery<Query>, Metrics>{tree, source, ray, query, metrics});
+}
+
+/// One tree over one mesh's primitives, in two levels.
+template <class Tlas, class Blases, class Source, class Query, class Metrics>
+HWY_INLINE void traverseLevels(const Tlas& tlas, const Blases& blases, const Source& source,
+                               const PreparedRay& ray, Query& query, Metrics& metrics) {
+    using Top = TlasStepper<Tlas>;
+    const Top top(tlas);
+    const typename Top::Ray topRay = top.prepare(ray);
+    Entered<typename Top::Cursor> root;
+    if (!top.enterRoot(topRay, query.boxLimit(), root, metrics)) return;
+    MetricsBehind<Metrics> behind{metrics, tlas.form().nodeBytes()};
+    InstanceQuery<Query> within(query, -std::numeric_limits<float>::infinity(), 0);
+    const auto below = [&](const typename BlasStepper<Blases>::Ray& blasRay) HWY_ATTR {
+        const auto visitLeaf = [&](PrimitiveRange leaf, const RootEntry& entry) HWY_ATTR {
+            return traverseBlas(blases, leaf, entry, blasRay, source, ray, within, behind);
+        };
+        traverseTlas<Tlas>(top, root, topRay, query, metrics, LeafVisitor::of(visitLeaf));
+    };
+    if constexpr (std::is_same_v<typename Top::Ray, typename BlasStepper<Blases>::Ray>)
+        below(topRay);
+    else
+        below(BlasStepper<Blases>::prepare(ray, tlas.bounds()));
+}
+
+/// Walks through the BLAS of an instance with the ray in its space. The definition of a hit is in
+/// scene/instance.h.
+template <class Blases, class Source, class Query, class Metrics>
+HWY_NOINLINE bool traverseInstance(uint32_t number, const Blases& blases, const PlacedBlases& placed,
+                                   const Source& source, const PreparedRay& ray, Query& query,
+                                   Metrics& metrics) {
+    const InstanceEntry& entry = placed.entries[number];
+    size_t offset = blases.nodeBytes();
+    metrics.recordFetched(offset + number * sizeof(InstanceEntry), sizeof(InstanceEntry));
+    metrics.boxesTested(1, kFullBoxTestCost);
+    const RayInterval inWorld = clipToBox(ray, entry.bounds, query.boxLimit());
+    if (inWorld.isEmpty()) return false;
+
+    const PreparedRay local(objectRay(entry.toObject, ray));
+    const Aabb& box = placed.meshBounds[entry.mesh];
+    offset += placed.entries.size() * sizeof(InstanceEntry);
+    metrics.recordFetched(offset + entry.mesh * sizeof(Aabb), sizeof(Aabb));
+    metrics.boxesTested(1, kFullBoxTestCost);
+    const RayInterval inMesh = clipToBox(local, box, query.boxLimit());
+    if (local.missesByDefinition() || inMesh.isEmpty()) return false;
+
+    PrimitiveRange leaf{entry.mesh, 1};
+    if constexpr (Blases::kAreRuns) {
+        offset += placed.meshBounds.size() * sizeof(Aabb);
+        metrics.recordFetched(offset + entry.mesh * sizeof(PrimitiveRange), sizeof(PrimitiveRange));
+        leaf = placed.runs[entry.mesh];
+    }
+    InstanceQuery<Query> within(query, inWorld.enter, entry.primitiveOffset);
+    const typename BlasStepper<Blases>::Ray blasRay = BlasStepper<Blases>::prepare(local, box);
+    return traverseBlas(blases, leaf, RootEntry(local, box, inMesh.enter, query.boxLimit()), blasRay,
+                        source.of(local), local, within, metrics);
+}
+
+/// A top level over instances.
+template <class Tlas, class Source, class Query, class Metrics>
+HWY_INLINE void traverseInstances(const Tlas& tlas, const TwoLevelForm& form, const Source& source,
+                                  const PreparedRay& ray, Query& query, Metrics& metrics) {
+    using Top = TlasStepper<Tlas>;
+    const Top top(tlas);
+    const typename Top::Ray topRay = top.prepare(ray);
+    Entered<typename Top::Cursor> root;
+    if (!top.enterRoot(topRay, query.boxLimit(), root, metrics)) return;
+    MetricsBehind<Metrics> behind{metrics, tlas.form().nodeBytes()};
+    const auto visitLeaf = [&](PrimitiveRange leaf, const RootEntry&) HWY_ATTR {
+        return std::visit(
+            [&](const auto& blases) HWY_ATTR {
+                return traverseInstance(leaf.first, blases, form.placed(), source, ray, query, behind);
+            },
+            form.blases());
+    };
+    traverseTlas<Tlas>(top, root, topRay, query, metrics, LeafVisitor::of(visitLeaf));
+}
+
+template <>
+class Stepper<TwoLevelForm> {
+  public:
+    explicit Stepper(const TwoLevelForm& form) : form_(form) {}
+    const TwoLevelForm& form() const { return form_; }
+
+  private:
+    const TwoLevelForm& form_;
+};
+
+template <class Source, class Query, class Metrics>
+HWY_INLINE void traverse(const Stepper<TwoLevelForm>& stepper, const Source& source, const PreparedRay& ray,
+                         Query& query, Metrics& metrics) {
+    const TwoLevelForm& form = stepper.form();
+    std::visit(
+        [&](const auto& tlas) HWY_ATTR {
+            if (form.isInstanced()) return traverseInstances(tlas, form, source, ray, query, metrics);
+            std::visit([&](const auto& blases)
+                           HWY_ATTR { traverseLevels(tlas, blases, source, ray, query, metrics); },
+                       form.blases());
+        },
+        form.tlas());
+}
+
+}  // namespace bvhio::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -75,6 +75,15 @@ void refit(Pass& pass, const std::string& old) {
                  {"references", references}});
 }
 
+EncodedBvh built(const Scene& scene, const Builder& builder, const BuildOptions& options) {
+    return AabbForm(builder.function(scene, options));
+}
+
+/// A tree for each mesh, and one over their instances.
+EncodedBvh builtInstanced(const Scene& scene, const Builder& builder, const BuildOptions& options) {
+    return TwoLevelForm::encodeInstances(scene, buildInstanced(scene, builder, options), exactLevels());
+}
+
 ExitCode build(CommandLine& line) {
     BuildOptions options;
     std::string builder(builders()[0].name), degenerate(kOnDegenerate[0].name);
@@ -112,9 +121,7 @@ ExitCode build(CommandLine& line) {
     Scene scene = import(pass.input(), {onDegenerate(degenerate)}, twoLevel);
     pass.stages().begin("build");
     options.progress = &pass.stages().progress();
-    EncodedBvh bvh = twoLevel ? EncodedBvh(TwoLevelForm::encodeInstances(
-                                    scene, buildInstanced(scene, chosen, options), exactLevels()))
-                              : EncodedBvh(AabbForm(chosen.function(scene, options)));
+    EncodedBvh bvh = twoLevel ? builtInstanced(scene, chosen, options) : built(scene, chosen, options);
     BvhxFile file{std::move(scene), std::move(bvh), options.costs, {}, {}};
     Report counts = {{"primitives", file.scene.triangles.size()}};
     if (twoLevel)

@@ -37,7 +37,7 @@ struct Options {
         image, heatmap, compare;
     RaySetOptions set;
     bool anyHit = false;
-    uint32_t repeat = 3;
+    uint32_t repeat = 3, heatmapScale = 0;
     float tolerance = 0;
 };
 
@@ -70,6 +70,8 @@ void declare(CommandLine& line, Options& options) {
     line.text("--hits", "FILE.hits", options.hits, "write the hits");
     line.text("--image", "FILE.png", options.image, "draw the scene, shaded");
     line.text("--heatmap", "FILE.png", options.heatmap, "draw what each pixel's rays cost: NC + TC");
+    line.number("--heatmap-scale", options.heatmapScale, 1, 1000000000,
+                "tests per ray drawn as white; none: found from the picture");
 }
 
 Tracer tracerOf(const Options& options, const BvhxFile& file) {
@@ -174,6 +176,8 @@ ExitCode traceRays(CommandLine& line) {
         options.cache.empty() ? std::vector<CacheLevels>() : parseCaches(options.cache);
     OptionalOutput raysOutput(options.saveRays), visitsOutput(options.recordVisits), hitsOutput(options.hits),
         fetchesOutput(options.fetches, OutputKind::text), image(options.image), heatmap(options.heatmap);
+    if (line.isGiven("--heatmap-scale") && !heatmap)
+        throw Error(ErrorKind::usage, "--heatmap-scale: there is no heat map: give --heatmap as well");
 
     const BvhxFile file = query.read();
     if (visitsOutput && file.scene.isInstanced())
@@ -242,7 +246,7 @@ ExitCode traceRays(CommandLine& line) {
         std::vector<uint32_t> costs(rays.size());
         for (size_t i = 0; i < rays.size(); ++i)
             costs[order[i]] = perRay[i].boxTests + perRay[i].triangleTests;
-        heatmap.write(encodePng(heatMap(costPerPixel(set, costs), set.resolution)));
+        heatmap.write(encodePng(heatMap(costPerPixel(set, costs), set.resolution, options.heatmapScale)));
     }
     query.print(report);
     query.finish();

@@ -29,7 +29,8 @@ build() { # PRESET
 style() {
     git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror &&
         git ls-files '*.sh' | xargs -n 1 bash -n &&
-        python3 tests/check_arrows.py
+        python3 tests/check_arrows.py &&
+        python3 tests/draw_architecture.py --check
 }
 
 # Every test, with the build that users run.

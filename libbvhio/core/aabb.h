@@ -11,7 +11,7 @@ namespace bvhio {
 struct Aabb {
     Vec3 min, max;
 
-    /// The box that contains nothing: the neutral element of `extend`.
+    /// Returns the box that contains nothing: the neutral element of `extend`.
     static constexpr Aabb empty() {
         constexpr float inf = std::numeric_limits<float>::infinity();
         return {{inf, inf, inf}, {-inf, -inf, -inf}};
@@ -30,7 +30,7 @@ struct Aabb {
                max.y >= b.max.y && max.z >= b.max.z;
     }
     constexpr Vec3 extent() const { return max - min; }
-    /// The midpoint; halves are summed, so that it cannot overflow.
+    /// Returns the midpoint, as a sum of halves that cannot overflow.
     constexpr Vec3 center() const { return min * 0.5f + max * 0.5f; }
     constexpr int longestAxis() const {
         const Vec3 e = extent();
@@ -45,8 +45,8 @@ constexpr Aabb unite(Aabb a, const Aabb& b) {
     return a;
 }
 
-/// Half of the surface area of a non-empty box, in units squared, and 0 for an empty one. SAH ratios need
-/// only halves. In double: the areas of boxes 1e-25 or 1e25 across must not underflow or overflow.
+/// Returns half of a box's surface area in units squared; 0 for an empty box. The SAH needs ratios of areas,
+/// so halves do. In double: the areas of boxes 1e-25 or 1e25 across must not underflow or overflow.
 constexpr double halfArea(const Aabb& b) {
     if (b.isEmpty()) return 0;
     const double x = double(b.max.x) - b.min.x, y = double(b.max.y) - b.min.y, z = double(b.max.z) - b.min.z;

@@ -10,11 +10,11 @@ namespace bvhio {
 std::shared_ptr<void> allocateUncleared(size_t bytes) {
     constexpr size_t kLine = 64, kHugePage = size_t(2) << 20;
     const size_t alignment = bytes >= 2 * kHugePage ? kHugePage : kLine;
-    // aligned_alloc wants a multiple of the alignment, which huge pages need anyway; the tail stays
-    // untouched.
+    // aligned_alloc needs a multiple of the alignment, and so do huge pages. The tail is never touched, so it
+    // takes no memory.
     void* memory = std::aligned_alloc(alignment, (bytes + alignment) / alignment * alignment);
     if (memory == nullptr) throw std::bad_alloc();
-    // Advice only: where it is refused, small pages do.
+    // This is only advice. Where the system refuses it, small pages work too.
     if (alignment == kHugePage) (void)madvise(memory, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
     return {memory, [](void* p) { std::free(p); }};
 }

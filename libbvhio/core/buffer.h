@@ -1,4 +1,4 @@
-// Large arrays that nobody clears: whoever asks for one writes every element that is read later.
+// Large uninitialised arrays. Whoever allocates one must write every element before reading it.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace bvhio {
 
-/// Memory aligned to cache lines, and in huge pages where the system grants them: first touches of small
-/// pages cost about as much as a pass over the data. Throws std::bad_alloc. The pointer frees it.
+/// Allocates memory aligned to cache lines, and in huge pages where the system grants them: first touches of
+/// small pages cost about as much as a pass over the data. Throws std::bad_alloc. The pointer frees it.
 std::shared_ptr<void> allocateUncleared(size_t bytes);
 
-/// An owned array of plain data, uninitialised whatever T's constructors say (Node's would write zeros).
+/// An owned array of plain data. T's constructors are not called (Node's would write zeros).
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -29,10 +29,10 @@ class Buffer {
     T& operator[](size_t i) { return data_[i]; }
     const T& operator[](size_t i) const { return data_[i]; }
 
-    /// Keeps the first `size` elements. The rest, if nothing was written there, never took memory.
+    /// Keeps the first `size` elements. The rest never took memory if nothing was written there.
     void truncate(size_t size) { size_ = size; }
 
-    /// Hands the array over as an immutable one; nothing is copied.
+    /// Converts the array into an immutable one, without copying.
     SharedArray<T> share() && { return {std::move(memory_), {data_, size_}}; }
 
   private:

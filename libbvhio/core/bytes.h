@@ -13,14 +13,14 @@
 
 namespace bvhio {
 
-// Arrays of nodes, vertices and indices are stored as they lie in memory.
+// Files store arrays of nodes, vertices and indices with the same bytes as in memory.
 static_assert(std::endian::native == std::endian::little,
               "bvhio stores arrays as they are in memory: little-endian");
 
-/// Takes numbers from the front of a byte string; whatever asks for more than is left throws Error{invalid}.
+/// Reads numbers from the front of a byte string. Reading more than is left throws Error{invalid}.
 class ByteReader {
   public:
-    /// A view: the bytes must outlive the reader. `what` names the bytes in messages ("chunk PROV").
+    /// Keeps a view: the bytes must outlive the reader. `what` names the bytes in messages ("chunk PROV").
     ByteReader(std::span<const std::byte> bytes, std::string what) : bytes_(bytes), what_(std::move(what)) {}
 
     size_t position() const { return position_; }
@@ -42,7 +42,7 @@ class ByteReader {
         const auto view = bytes(count);
         return {reinterpret_cast<const char*>(view.data()), view.size()};
     }
-    /// Skips `count` bytes and says whether all of them are zero.
+    /// Skips `count` bytes and returns whether all of them are zero.
     bool skipZeros(uint64_t count) {
         bool zero = true;
         for (const std::byte b : bytes(count)) zero &= b == std::byte{0};

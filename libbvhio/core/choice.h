@@ -1,4 +1,4 @@
-// Tables of named choices: builders, restructurers, layouts, ray sets and codecs are rows of one.
+// Tables of named choices. Builders, restructurers, layouts, ray sets and codecs have a table each.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace bvhio {
 
-/// One row: what the command line calls it, one line for --help, and what runs. Command-line choices, help
-/// texts, property tests, fuzzing and benchmarks all loop over such rows, so adding one adds it everywhere.
+/// A row: its name on the command line, one line for --help, and its function. Command-line choices, help
+/// texts, property tests, fuzzing and benchmarks loop over the rows, so a new row appears in all of them.
 template <class Function>
 struct Choice {
     std::string_view name;
@@ -19,7 +19,7 @@ struct Choice {
     Function function;
 };
 
-/// What a row runs, and the options that it has a use for, as bits that its table names: tools refuse others.
+/// A method, and a mask of the options it uses (the bits are beside its table). Tools reject other options.
 template <class Signature>
 struct Method;
 template <class Result, class... Arguments>
@@ -32,7 +32,7 @@ struct Method<Result(Arguments...)> {
 
 inline constexpr uint32_t kUsesNothing = 0;
 
-/// The names of a table's rows, as "a, b or c".
+/// Returns the names of a table's rows as "a, b or c".
 template <class Function>
 std::string listNames(std::span<const Choice<Function>> table) {
     std::string names;
@@ -43,8 +43,8 @@ std::string listNames(std::span<const Choice<Function>> table) {
     return names;
 }
 
-/// The row called `name`; throws Error{usage} that lists the names when there is none. `what` names the kind
-/// of row ("builder").
+/// Returns the row called `name`. Throws Error{usage} with a list of all names if there is no such row.
+/// `what` names the kind of row ("builder").
 template <class Function>
 const Choice<Function>& choose(std::span<const Choice<Function>> table, std::string_view what,
                                std::string_view name) {

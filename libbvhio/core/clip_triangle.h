@@ -1,17 +1,17 @@
-// The bounds of a triangle's part within a box, for spatial splits: clipping by half-spaces (Sutherland and
-// Hodgman 1974, "Reentrant Polygon Clipping") in double, with a margin that makes the bounds safe.
+// The bounds of the part of a triangle inside a box, for spatial splits: clipping by half-spaces (Sutherland
+// and Hodgman 1974, "Reentrant Polygon Clipping") in double, with a margin that makes the bounds safe.
 //
-// Why the parts of a triangle find all hits that the whole one finds (core/intersect.h). A hit's exact point
-// P on the ray lies near an exact point Q of the triangle: per axis within 2^-51 of the triangle's largest
-// coordinates, which the sheared vertices are rounded to, plus a like part of the distance to the origin
-// along that axis, which the slack of the box test covers. Follow Q down the splits, to a part on whose side
-// of each plane it lies. Clipping finds Q within rounding: each crossing is within 2^-51 of the largest
-// coordinate of where it should be, on every axis, since what it is computed from is in the plane but for as
-// little; and the planes are moved out by kMargin = 2^-40 of the largest coordinate before, so that no such
-// error cuts Q off. The corners' bounds are moved out by the margin again and rounded outwards. So the part's
-// box holds everything within almost a margin of Q, P among it, save beyond the triangle's own bounds, where
-// a hit by definition has passed the test. A float's spacing is 2^-24 of it: the margin rarely moves a bound
-// by more than one float.
+// Why the parts of a triangle find all hits that the whole triangle finds (core/intersect.h). A hit's exact
+// point P on the ray lies near an exact point Q of the triangle. On each axis their distance is at most 2^-51
+// of the triangle's largest coordinate, because the sheared vertices are rounded to that, plus an equal
+// fraction of the distance to the origin along that axis, which the slack of the box test covers. Follow Q
+// down the splits to a part that lies on Q's side of each plane. Clipping keeps Q within rounding: on every
+// axis each crossing is within 2^-51 of the largest coordinate of its exact position, since the points it is
+// computed from are in the plane up to the same error. Before clipping, the planes are moved out by kMargin =
+// 2^-40 of the largest coordinate, so that no such error cuts Q off. The corners' bounds are moved out by the
+// margin again and rounded outwards. So the part's box holds everything within almost a margin of Q, and so
+// P, except beyond the triangle's own bounds, where a hit by definition has passed the test. A float's
+// spacing is 2^-24 of its value, so the margin rarely moves a bound by more than one float.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,8 @@ namespace bvhio {
 
 namespace detail {
 
-/// The largest float that is not above `x`, for a finite float range; 0 is never -0.
+/// Returns the largest float that is not above `x`, which must be in the range of finite floats. Never
+/// returns -0.
 inline float roundedDown(double x) {
     const auto nearest = float(x);
     return (nearest > x ? std::nextafterf(nearest, -std::numeric_limits<float>::infinity()) : nearest) + 0.0f;
@@ -37,24 +38,26 @@ inline float roundedUp(double x) {
 
 }  // namespace detail
 
-/// The overlap of two boxes; empty when they don't touch.
+/// Returns the overlap of two boxes, which is empty if they don't touch.
 constexpr Aabb intersection(const Aabb& a, const Aabb& b) {
     return {max(a.min, b.min), min(a.max, b.max)};
 }
 
-/// Bounds of the part of a triangle within the closed box `within`, which may exceed `within` by a float or
-/// two. Empty when the triangle does not touch the box. Always inside the triangle's bounds.
+/// Returns the bounds of the part of a triangle inside the closed box `within`. They may exceed `within` by a
+/// float or two, and never exceed the triangle's bounds. They are empty if the triangle does not touch the
+/// box.
 inline Aabb partBounds(const Triangle& triangle, const Aabb& within) {
     struct Point {
         double at[3];
     };
-    // Each of the six planes adds at most one corner to a convex polygon; rounding may leave it concave by a
-    // bit, so there is room for more; should that not do, the answer is the triangle's bounds.
+    // Each of the six planes adds at most one corner to a convex polygon. Rounding may make it slightly
+    // concave, so there is room for more corners. If even that is too little, the triangle's bounds are
+    // returned.
     constexpr int kCapacity = 12;
     constexpr double kMargin = 0x1p-40;
 
     const Aabb whole = bounds(triangle);
-    double largest = 0;
+    double largest = 0;  // coordinate
     for (int axis = 0; axis < 3; ++axis)
         largest = std::max({largest, std::abs(double(whole.min[axis])), std::abs(double(whole.max[axis]))});
     const double margin = kMargin * largest;

@@ -11,8 +11,8 @@
 
 namespace bvhio {
 
-/// By family: 10xx container, 20xx chunks, 30xx structure of the tree, 40xx geometry; x1xx are warnings.
-/// Numbers are never reused.
+/// The families are 10xx container, 20xx chunks, 30xx structure of the tree, and 40xx geometry; x1xx are
+/// warnings. Numbers are never reused.
 enum class FindingId : uint32_t {
     signature = 1001,
     headerChecksum = 1002,
@@ -79,21 +79,21 @@ enum class FindingId : uint32_t {
     unusedVertices = 4102,
 };
 
-/// A row of the list.
+/// A row of the list of findings.
 struct FindingKind {
     FindingId id;
-    ErrorKind error;  // how a reader that stops at it ends: invalid or unsupported; `usage` marks a warning,
-                      // which stops no reader
+    ErrorKind error;  // of a reader that stops at this finding: invalid or unsupported; `usage` marks a
+                      // warning, which stops no reader
     std::string_view summary;
 };
 
-/// Every finding there is, by ascending id.
+/// Returns all kinds of findings, by ascending id.
 std::span<const FindingKind> findingKinds();
 const FindingKind& findingKind(FindingId id);
 
 inline constexpr uint64_t kNowhere = ~uint64_t(0);
 
-/// One thing that is wrong with a file, and where.
+/// One fault of a file, and its place.
 struct Finding {
     enum class Severity { warning, error };
 
@@ -105,10 +105,10 @@ struct Finding {
     uint64_t node = kNowhere;    // index of the node at fault
 };
 
-/// What a reader throws: an Error that knows its finding.
+/// An Error that carries its finding; readers throw it.
 class FindingError : public Error {
   public:
-    /// `name` is the file's, for the message.
+    /// Starts the message with `name`, the name of the file.
     FindingError(const std::string& name, Finding finding);
     const Finding& finding() const { return finding_; }
 

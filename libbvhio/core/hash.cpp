@@ -1,4 +1,4 @@
-// The only file that knows xxHash. XXH3 is defined by its own specification and gives the same value on every
+// The only file that includes xxHash. XXH3 has a specification of its own and gives the same value on every
 // CPU.
 #include "core/hash.h"
 

@@ -1,4 +1,4 @@
-// XXH3-64, the one checksum of the project: of container chunks, content and hits.
+// XXH3-64, the one checksum of the project, for container chunks, content and hits.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace bvhio {
 
-/// XXH3-64 with seed 0 of `bytes`, as a number (files store it little-endian).
+/// Returns XXH3-64 with seed 0 of `bytes` as a number (files store it little-endian).
 uint64_t hash64(std::span<const std::byte> bytes);
 
-/// The same of bytes that come in pieces; the pieces' borders do not change the value.
+/// Computes the same hash of bytes that arrive in pieces. Where the pieces end does not matter.
 class Hasher {
   public:
     Hasher();
@@ -20,7 +20,7 @@ class Hasher {
     Hasher& operator=(Hasher&&) noexcept;
 
     void update(std::span<const std::byte> bytes);
-    /// The hash of everything so far; more may follow.
+    /// Returns the hash of everything so far; more may follow.
     uint64_t value() const;
 
   private:

@@ -1,4 +1,4 @@
-// How far a pass has come.
+// How much of its work a pass has done.
 #pragma once
 
 #include <atomic>
@@ -6,8 +6,8 @@
 
 namespace bvhio {
 
-/// A pass adds to `done` what it has finished, from any thread and in portions that cost nothing; someone who
-/// waits watches it from another thread. `total` is in the same unit, 0 while it is unknown.
+/// A pass adds the work it has finished to `done`, from any thread, in portions so large that adding costs
+/// nothing. Another thread may watch it. `total` is in the same unit, and 0 while it is unknown.
 struct Progress {
     std::atomic<uint64_t> done{0}, total{0};
 

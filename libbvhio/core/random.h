@@ -1,4 +1,4 @@
-// A small seeded generator whose numbers are the same on every machine; std distributions are not.
+// A small seeded generator with the same numbers on every machine, unlike the distributions of std.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,10 @@ class Random {
         const auto rotation = uint32_t(old >> 59);
         return (shifted >> rotation) | (shifted << ((32 - rotation) & 31));
     }
-    /// Uniform in [0, 1), in steps of 2^-24, so that every value is an exact float.
+    /// Returns a number uniform in [0, 1), in steps of 2^-24, so that every value is an exact float.
     float uniform() { return float(next() >> 8) * 0x1p-24f; }
     float uniform(float from, float to) { return from + (to - from) * uniform(); }
-    /// Uniform in [0, bound), bound > 0, without the bias of a plain remainder beyond 2^-32.
+    /// Returns a number uniform in [0, bound), bound > 0, without a remainder's bias beyond 2^-32.
     uint32_t below(uint32_t bound) { return uint32_t((uint64_t(next()) * bound) >> 32); }
 
   private:

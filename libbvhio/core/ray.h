@@ -1,4 +1,4 @@
-// Rays, hits, and the rays that miss by definition.
+// Rays and hits, and which rays miss by definition.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace bvhio {
 
-/// A ray: the points origin + t * direction with tMin <= t <= tMax. `t` is in units of the direction as
-/// given, which need not be normalised. 32 bytes, in the order of a `.rays` file. A negative tMin counts as
-/// 0. A ray with a NaN anywhere, an infinite origin or direction, a zero direction or tMax < tMin is valid
-/// input and hits nothing.
+/// A ray: the points origin + t * direction with tMin <= t <= tMax. `t` is in units of the direction, which
+/// need not be normalised. 32 bytes, with the fields in the order of a `.rays` file. A negative tMin counts
+/// as 0. A ray with a NaN anywhere, an infinite origin or direction, a zero direction or tMax < tMin is valid
+/// input, and by definition hits nothing.
 struct Ray {
     Vec3 origin;
     float tMin = 0;
@@ -22,10 +22,10 @@ static_assert(sizeof(Ray) == 32);
 
 inline constexpr uint32_t kNoPrimitive = 0xFFFFFFFFu;
 
-/// The answer to a closest-hit query. `primitive` is the index of the triangle in `Scene::triangles`, or,
-/// in an instanced scene, as Scene numbers it through all instances; among equal t the lowest wins. u and v
-/// are the barycentric weights of the second and third vertex. A miss has primitive == kNoPrimitive, t = the
-/// infinity, u = v = 0.
+/// The answer to a closest-hit query. `primitive` is the index of the triangle in `Scene::triangles`; in an
+/// instanced scene, it is the triangle's number through all instances (see Scene). Among equal t the lowest
+/// number wins. u and v are the barycentric weights of the second and third vertex. A miss has primitive ==
+/// kNoPrimitive, t = infinity and u = v = 0.
 struct Hit {
     float t = std::numeric_limits<float>::infinity();
     float u = 0, v = 0;

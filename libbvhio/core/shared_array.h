@@ -1,5 +1,5 @@
-// Immutable arrays that are either owned or a view into a mapped file, and the aligned vectors that fill
-// them.
+// Immutable arrays that either own their elements or view a mapped file, and the aligned vectors that they
+// are made from.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 namespace bvhio {
 
-/// Aligns to cache lines, so that a sibling pair of 32-byte nodes never straddles two, and leaves plain data
-/// uninitialised on resize: builders overwrite every element, and clearing 100 MB first costs more than some
-/// of their passes.
+/// Aligns to cache lines, so that a sibling pair of 32-byte nodes never straddles two lines. Leaves plain
+/// data uninitialised on resize: builders overwrite every element, and clearing 100 MB first costs more than
+/// some of their passes.
 template <class T>
 struct AlignedAllocator {
     using value_type = T;
@@ -43,8 +43,8 @@ struct AlignedAllocator {
 template <class T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
-/// A read-only array that shares ownership of its storage: a vector that was moved in, or a mapped file.
-/// Copies are cheap.
+/// A read-only array that shares ownership of its storage, which is a vector that was moved in or a mapped
+/// file. Copies are cheap.
 template <class T>
 class SharedArray {
   public:
@@ -57,7 +57,7 @@ class SharedArray {
         view_ = {owner->data(), owner->size()};
         owner_ = std::move(owner);
     }
-    /// A view of memory that `owner` keeps alive.
+    /// Views memory that `owner` keeps alive.
     SharedArray(std::shared_ptr<const void> owner, std::span<const T> view)
         : owner_(std::move(owner)), view_(view) {}
 
@@ -67,7 +67,7 @@ class SharedArray {
     const T& operator[](size_t i) const { return view_[i]; }
     const T* begin() const { return view_.data(); }
     const T* end() const { return view_.data() + view_.size(); }
-    /// What keeps the storage alive, for a view of the same bytes as another type.
+    /// Returns the owner of the storage, for a view of the same bytes as another type.
     const std::shared_ptr<const void>& owner() const { return owner_; }
     operator std::span<const T>() const { return view_; }  // NOLINT: a SharedArray is used wherever a span is
 

@@ -1,4 +1,4 @@
-// The parts of a text between separators: options that name several things in one word.
+// Splits a text at its separators, for options that name several things in one word.
 #pragma once
 
 #include <string_view>
@@ -6,7 +6,7 @@
 
 namespace bvhio {
 
-/// One part more than there are separators; any may be empty.
+/// Returns the parts between separators: one more than there are separators. Any part may be empty.
 inline std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
     for (;;) {

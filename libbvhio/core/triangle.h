@@ -1,4 +1,4 @@
-// Triangles and what is derived from their vertices.
+// Triangles, their bounds and their areas.
 #pragma once
 
 #include "core/aabb.h"
@@ -14,7 +14,7 @@ constexpr Aabb bounds(const Triangle& t) {
     return {min(min(t.v0, t.v1), t.v2), max(max(t.v0, t.v1), t.v2)};
 }
 
-/// Area in units squared, computed in double so that tiny triangles keep one.
+/// Returns the area in units squared, computed in double so that the area of a tiny triangle is not 0.
 inline double area(const Triangle& t) {
     const double ax = double(t.v1.x) - t.v0.x, ay = double(t.v1.y) - t.v0.y, az = double(t.v1.z) - t.v0.z;
     const double bx = double(t.v2.x) - t.v0.x, by = double(t.v2.y) - t.v0.y, bz = double(t.v2.z) - t.v0.z;

@@ -1,4 +1,4 @@
-// Three floats with a name, and the few operations on them that a BVH needs.
+// Vectors of three floats, with the few operations that a BVH needs.
 #pragma once
 
 #include <cmath>
@@ -10,15 +10,15 @@ namespace bvhio {
 struct Vec3 {
     float x = 0, y = 0, z = 0;
 
-    /// Component by axis: 0 = x, 1 = y, 2 = z.
+    /// Returns the component of an axis: 0 = x, 1 = y, 2 = z.
     constexpr float& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
     constexpr float operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
     constexpr bool operator==(const Vec3&) const = default;
 };
 static_assert(sizeof(Vec3) == 12);
 
-/// The component along an axis that only the data knows: one indexed load, where operator[] compares and
-/// branches.
+/// Returns the component of an axis that is not known when compiling: by one indexed load, where operator[]
+/// compares and branches.
 inline float component(const Vec3& a, int axis) {
     return (&a.x)[axis];
 }
@@ -41,12 +41,12 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 inline float length(Vec3 a) {
     return std::sqrt(dot(a, a));
 }
-/// The unit vector along `a`; the zero vector stays zero.
+/// Returns the unit vector along `a`, or zero for the zero vector.
 inline Vec3 normalize(Vec3 a) {
     const float l = length(a);
     return l > 0 ? a * (1.0f / l) : a;
 }
-// Written as comparisons, not std::min: the operand order is part of what must not vary by compiler.
+// These are comparisons, not std::min: the order of the operands must not vary by compiler.
 constexpr Vec3 min(Vec3 a, Vec3 b) {
     return {b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y, b.z < a.z ? b.z : a.z};
 }

@@ -9,7 +9,7 @@
 namespace bvhio {
 namespace {
 
-/// Triangles of every awkward kind, `scale` large.
+/// Returns triangles of every awkward kind, of size `scale`.
 std::vector<Triangle> awkwardTriangles(Random& random, float scale) {
     const auto point = [&](float spread) {
         const float x = random.uniform(-spread, spread), y = random.uniform(-spread, spread);
@@ -19,7 +19,7 @@ std::vector<Triangle> awkwardTriangles(Random& random, float scale) {
     const float s = random.uniform();
     std::vector<Triangle> triangles{
         {a, b, c},
-        {a, b, a * (1 - s) + b * s},                            // a sliver, all but a segment
+        {a, b, a * (1 - s) + b * s},                            // a sliver, almost a segment
         {a, b, b + point(1e-6f)},                               // a needle
         {a, b, b},                                              // a segment
         {a, a, a},                                              // a point
@@ -27,7 +27,7 @@ std::vector<Triangle> awkwardTriangles(Random& random, float scale) {
         {{a.x, 0, 0}, {b.x, 0, 0}, {c.x, c.y, 0}},              // at zero
         {far, far + point(1e-3f), far + point(1e-3f)},          // a few floats wide
         {a, {a.x + scale * 1e-6f, b.y, b.z}, {a.x, c.y, c.z}},  // thin along an axis
-        {a * 1e-6f, b * 1e3f, c},                               // of sides of all lengths
+        {a * 1e-6f, b * 1e3f, c},                               // with sides of very different lengths
     };
     for (Triangle& t : triangles)
         for (Vec3* v : {&t.v0, &t.v1, &t.v2}) *v = *v + Vec3{};  // no -0
@@ -40,7 +40,7 @@ bool holds(const Aabb& box, const double (&p)[3]) {
     return true;
 }
 
-/// A point of a triangle, rounded to double.
+/// Returns a point of a triangle, rounded to double.
 struct Sample {
     double at[3];
     Sample(const Triangle& t, double u, double v) {
@@ -60,7 +60,7 @@ std::vector<Sample> samplesOf(const Triangle& t, Random& random) {
     return samples;
 }
 
-/// The boxes of the parts that random cuts leave of a triangle.
+/// Returns the boxes of the parts into which random cuts divide a triangle.
 std::vector<Aabb> cutUp(const Triangle& t, Random& random, int cuts) {
     std::vector<Aabb> parts{bounds(t)};
     for (int i = 0; i < cuts; ++i) {
@@ -68,7 +68,7 @@ std::vector<Aabb> cutUp(const Triangle& t, Random& random, int cuts) {
         const Aabb box = parts[which];
         const int axis = int(random.below(3));
         const float s = random.uniform();
-        // Now and then through a corner, where rounding is at its trickiest.
+        // Some cuts go through a corner, where rounding is hardest.
         const float plane = random.below(4) == 0 ? t.v1[axis] : box.min[axis] * (1 - s) + box.max[axis] * s;
         Aabb low = box, high = box;
         low.max[axis] = std::min(low.max[axis], plane);
@@ -82,7 +82,7 @@ std::vector<Aabb> cutUp(const Triangle& t, Random& random, int cuts) {
     return parts;
 }
 
-// A point of a triangle that no part's box holds is a hole in the picture.
+// If a point of a triangle is in no part's box, the picture has a hole there.
 TEST(ClipTriangle, partsHoldEveryPoint) {
     Random random(1);
     for (const float scale : {1.0f, 1e6f, 1e30f, 1e-6f, 1e-30f, 1e-40f})
@@ -93,7 +93,7 @@ TEST(ClipTriangle, partsHoldEveryPoint) {
                 for (const Sample& sample : samplesOf(t, random)) {
                     double p[3];
                     std::copy(sample.at, sample.at + 3, p);
-                    // The sample itself is rounded, and so may lie outside of the triangle's own bounds.
+                    // The sample itself is rounded, so it may lie outside the triangle's own bounds.
                     for (int axis = 0; axis < 3; ++axis)
                         p[axis] = std::clamp<double>(p[axis], bounds(t).min[axis], bounds(t).max[axis]);
                     bool held = false;
@@ -128,7 +128,7 @@ TEST(ClipTriangle, partsStayWithinTheTriangleAndAFloatOfTheBox) {
         }
 }
 
-// The overlap of boxes would be 1 x 1 here and below; cutting is worth it for what it saves.
+// Here and below, the overlap of the boxes would be 1 x 1. Cutting gives less.
 TEST(ClipTriangle, boundsAreTight) {
     const Triangle t{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
     const Aabb corner = partBounds(t, {{3, 0, -1}, {4, 4, 1}});

@@ -12,7 +12,7 @@ std::span<const std::byte> bytesOf(const std::string& text) {
     return std::as_bytes(std::span(text));
 }
 
-// Fails if another variant (XXH64, a seed, the 128-bit one) is ever taken: files would no longer verify.
+// Fails if another variant is used (XXH64, a seed, 128 bits): files would no longer verify.
 TEST(Hash, hasThePublishedValues) {
     EXPECT_EQ(hash64({}), 0x2D06800538D394C2ull);  // the published value of XXH3-64 for no bytes
     EXPECT_EQ(hash64(bytesOf("a")), 0xE6C632B61E964E1Full);

@@ -32,7 +32,7 @@ TEST(IntersectBox, findsTheIntervalUpToItsSlack) {
     EXPECT_GE(part.exit, 1.0f);
 }
 
-// 0 * infinity is a NaN, which must neither reject the box nor widen the interval that the other axes leave.
+// 0 * infinity is a NaN. It must neither reject the box nor widen the interval of the other axes.
 TEST(IntersectBox, acceptsParallelRaysThatRunInAFace) {
     for (const float zero : {0.0f, -0.0f})
         for (const float y : {0.0f, 1.0f}) {
@@ -55,8 +55,8 @@ TEST(IntersectBox, respectsTheRaysLimits) {
     EXPECT_FALSE(entersBox({{-1, 0.5f, 0.5f}, 2.01f, {1, 0, 0}, 3}, kUnitBox));
 }
 
-// A flat box's entry and exit are computed from the same plane: only the slack keeps rounding from closing
-// the interval.
+// The entry and exit of a flat box are computed from the same plane. Without the slack, rounding could make
+// the interval empty.
 TEST(IntersectBox, holdsEveryPointOfTheRayThatLiesInIt) {
     Random random(7);
     const auto number = [&] { return random.uniform(-1, 1) * std::exp2(float(random.below(20)) - 10); };
@@ -65,8 +65,8 @@ TEST(IntersectBox, holdsEveryPointOfTheRayThatLiesInIt) {
         const float t = std::abs(number());
         Aabb box;
         for (int axis = 0; axis < 3; ++axis) {
-            // The two floats around the exact coordinate, or a larger box: double holds the product and
-            // nearly the sum.
+            // The two floats around the exact coordinate, or a larger box. Double holds the product exactly,
+            // and the sum almost exactly.
             const double exact = ray.origin[axis] + double(ray.direction[axis]) * t;
             float below = float(exact);
             if (below > exact) below = std::nextafter(below, -kInf);
@@ -80,7 +80,7 @@ TEST(IntersectBox, holdsEveryPointOfTheRayThatLiesInIt) {
     }
 }
 
-// What the proof that hits are the same for every tree rests on.
+// The proof that hits are the same for every tree depends on this.
 TEST(IntersectBox, neverLosesByGrowing) {
     Random random(8);
     const auto number = [&] {
@@ -125,12 +125,12 @@ TEST(IntersectTriangle, hitsAtBothLimitsAndNotBeyond) {
     EXPECT_TRUE(at(-1, 2));
 }
 
-// Fails if a t beyond the floats counts as a hit at infinity, which is how a miss reads.
+// Fails if a t beyond the range of floats counts as a hit at infinity, which means a miss.
 TEST(IntersectTriangle, missesWhereTOverflows) {
     EXPECT_TRUE(hitOf({{1, 1, 1}, 0, {0, 0, -1e-40f}, kInf}, kTriangle).isMiss());
 }
 
-// Fails if the shear, a third here, is rounded to float: from so far away that moves the hit by half a unit.
+// Fails if the shear, 1/3 here, is rounded to float: from this distance that moves the hit by half a unit.
 TEST(IntersectTriangle, staysPreciseFarAway) {
     const Hit hit = hitOf({{1 - 0x1p24f, 1, -3 * 0x1p24f}, 0, {1, 0, 3}, kInf}, kTriangle);
     EXPECT_FALSE(hit.isMiss());
@@ -148,7 +148,7 @@ TEST(IntersectTriangle, hitsAtItsOriginWithAPositiveZero) {
     }
 }
 
-// A tie belongs to both neighbours: one that left it to the other could be two that do.
+// A tie belongs to both neighbours. If each could leave it to the other, both might.
 TEST(IntersectTriangle, ownsItsEdgesAndCorners) {
     for (const Vec3 at : {Vec3{2, 0, 1}, {0, 2, 1}, {2, 2, 1}, {0, 0, 1}, {4, 0, 1}, {0, 4, 1}})
         for (const Triangle& t : {kTriangle, Triangle{kTriangle.v1, kTriangle.v0, kTriangle.v2}})
@@ -178,8 +178,8 @@ TEST(IntersectTriangle, missesByDefinition) {
     }
 }
 
-// The edge functions' ties: a ray through a shared edge or corner hits a neighbour, whichever way the
-// triangles are wound.
+// Ties of the edge functions: a ray through a shared edge or corner hits one of the neighbours, for any
+// winding of the triangles.
 TEST(IntersectTriangle, leavesNoGapAtSharedEdges) {
     Random random(3);
     const auto point = [&](float size) {

@@ -55,7 +55,7 @@ bool entriesAreInReach(const Bvh& bvh) {
 Bvh inClusters(const Bvh& given, const EncodeOptions& options) {
     Bvh bvh = divideLeaves(given, ShortRecord::kMaxLeafSize);
     if (bvh.nodes.size() == given.nodes.size()) bvh.slots = given.slots;
-    if (!bvh.slots.empty() && faultOfSlots(bvh).empty() && entriesAreInReach(bvh)) return bvh;
+    if (!bvh.slots.empty() && validateSlots(bvh).empty() && entriesAreInReach(bvh)) return bvh;
     ClusterOptions wanted;
     const bool wasClustered = !given.slots.empty();
     wanted.pointerBits = wasClustered ? given.slots.pointerBits : options.pointerBits;

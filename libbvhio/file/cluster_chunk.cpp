@@ -30,7 +30,7 @@ void readClusters(ChunkSequence& chunks, Bvh& bvh) {
     bvh.slots = std::move(slots);
     // Of a tree that is not sound nothing can be said.
     if (!chunks.sound()) return;
-    if (const std::string fault = faultOfSlots(bvh); !fault.empty()) chunks.fail(FindingId::slots, fault);
+    if (const std::string fault = validateSlots(bvh); !fault.empty()) chunks.fail(FindingId::slots, fault);
 }
 
 }  // namespace bvhio

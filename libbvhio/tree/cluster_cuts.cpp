@@ -10,12 +10,13 @@ namespace {
 constexpr uint32_t kNoPair = ClusterPair::kNone;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// What a slot costs, in fetches of a record that is fetched as often as the mean: 1 percent more memory may
-/// save 1 percent of the fetches.
+/// The cost of a slot, in fetches of a record that is fetched as often as the mean. At 1, using 1 percent
+/// more memory is worth saving 1 percent of the fetches.
 constexpr float kSlotCost = 1;
 
-/// cost_[p][s]: what cuts below pair p cost at least if its subtree takes s units of its cluster, less the
-/// cost of p's best own cluster. A record takes one unit, or more where entries are scarcer than slots.
+/// A tree knapsack. For each pair p and each s its table holds the least cost of the cuts below p if p's
+/// subtree takes s units of its cluster, minus the cost of the best cluster that starts at p. A record takes
+/// one unit, or more if entries are scarcer than slots.
 class Knapsack {
   public:
     Knapsack(std::vector<ClusterPair>& pairs, const ClusterLimits& limits, bool countEntries)
@@ -30,9 +31,9 @@ class Knapsack {
   private:
     struct Table {
         size_t offset = 0;
-        uint32_t size = 0;  // s is below
+        uint32_t size = 0;  // s is less than this
         uint32_t best = 0;  // s of the best cluster that starts here
-        float cut = 0;      // what it costs the parent to cut here
+        float cut = 0;      // the cost of a cut here
     };
 
     uint32_t unitsOf(const ClusterPair& pair) const {
@@ -40,7 +41,7 @@ class Knapsack {
         return std::max(1u, (pair.entries * limits_.slots + limits_.entries - 1) / limits_.entries);
     }
     float costOf(uint32_t pair, uint32_t units) const { return costs_[tables_[pair].offset + units]; }
-    /// With the choice to cut, which takes a unit for the glue.
+    /// Returns the cost with the choice to cut at the pair, which takes one unit, for the glue.
     float shareOf(uint32_t pair, uint32_t units) const {
         const float cost = costOf(pair, units);
         return units == 1 ? std::min(cost, tables_[pair].cut) : cost;
@@ -50,6 +51,7 @@ class Knapsack {
     }
 
     void fillTable(uint32_t p) {
+        // The most units that the subtree can take.
         const ClusterPair& pair = pairs_[p];
         const uint32_t own = unitsOf(pair);
         uint32_t most = own;
@@ -60,6 +62,8 @@ class Knapsack {
         table.size = std::min(most, limits_.slots) + 1;
         costs_.resize(table.offset + table.size, kInfinity);
         float* costs = costs_.data() + table.offset;
+
+        // Combine each cost of the left child with each cost of the right one.
         const auto sharesOf = [&](uint32_t child, std::vector<float>& shares) {
             shares.assign(1, 0);
             if (child == kNoPair) return;
@@ -81,6 +85,8 @@ class Knapsack {
                 out[j] = sum < out[j] ? sum : out[j];
             }
         }
+
+        // The best cluster that starts here; costs are relative to it.
         float least = kInfinity;
         for (uint32_t s = 1; s < table.size; ++s)
             if (const float cost = costs[s] + costOfPadding(s); cost < least) {
@@ -91,7 +97,7 @@ class Knapsack {
         table.cut = float(pair.weight * scale_) + kSlotCost;
     }
 
-    /// Finds again what the least costs were made of.
+    /// Finds the cuts that give the least cost, from the root down.
     void cutDown() {
         struct Share {
             uint32_t pair, units;
@@ -133,7 +139,7 @@ class Knapsack {
     double scale_ = 0;
 };
 
-/// Whether some cluster has too many entries.
+/// Returns whether a cluster has too many entries.
 bool exceedsEntries(const std::vector<ClusterPair>& pairs, uint32_t limit) {
     std::vector<uint32_t> entries(pairs.size());
     for (size_t p = pairs.size(); p-- > 0;) {
@@ -148,7 +154,8 @@ bool exceedsEntries(const std::vector<ClusterPair>& pairs, uint32_t limit) {
 }  // namespace
 
 void cutAtLeastCost(std::vector<ClusterPair>& pairs, const ClusterLimits& limits) {
-    // With one entry for each leaf a cluster has one more than records at most: slots are the limit then.
+    // If each leaf has one entry, a cluster has at most one more entry than records, so only slots are
+    // limited.
     ClusterLimits ofSlots = limits;
     ofSlots.slots = std::min(limits.slots, limits.entries - 1);
     Knapsack(pairs, ofSlots, false);

@@ -10,11 +10,11 @@ namespace {
 
 constexpr uint32_t kNone = TreeItem::kNone;
 
-/// Puts connected parts into lines. A part may be placed once its parent is, so that items stay behind their
-/// parents. Parts that others wait for and full ones open lines, the heaviest first; what room they leave is
-/// filled from the rest: siblings first, then the longest that fits. Where none does, the line ends short
-/// as long as slots may be spared, and then takes as many items as it has room for of the part that loses
-/// least so.
+/// Puts connected parts into lines. A part is ready to be placed once its parent is placed, so that items
+/// come after their parents. Full parts, and parts that others wait for, open lines, the heaviest first. The
+/// room they leave is filled with siblings first, and then with the longest part that fits. If none fits, the
+/// line ends short while there are slots to spare. After that, the line takes as many items as it has room
+/// for from the part whose cost grows least by this.
 class LinesOfParts {
   public:
     LinesOfParts(std::span<const TreeItem> items, uint32_t lineSlots, size_t spareSlots)
@@ -47,10 +47,10 @@ class LinesOfParts {
 
   private:
     struct Part {
-        uint32_t item;    // its first
-        uint32_t parent;  // the part that has that one's parent
+        uint32_t item;    // the first of the part
+        uint32_t parent;  // the part that holds the first item's parent
         bool isPlaced = false;
-        std::vector<uint32_t> children{};  // parts, once it is placed
+        std::vector<uint32_t> children{};  // parts; known once this part is placed
     };
     struct Lighter {
         const LinesOfParts& lines;
@@ -68,7 +68,7 @@ class LinesOfParts {
         if (size(part) < lineSlots_) bySize_[size(part)].push_back(part);
         if (size(part) == lineSlots_ || size(part) < best_.mostItems(item)) first_.push(part);
     }
-    /// As many items of the part, in the last line.
+    /// Places `size` items of the part in the last line.
     void place(uint32_t part, uint32_t size) {
         parts_[part].isPlaced = true;
         const auto from = uint32_t(parts_.size());
@@ -89,7 +89,7 @@ class LinesOfParts {
         }
     }
 
-    /// To open a line.
+    /// Returns the part that opens the next line.
     uint32_t next() {
         while (!first_.empty()) {
             const uint32_t part = first_.top();
@@ -98,6 +98,7 @@ class LinesOfParts {
         }
         return longest(lineSlots_ - 1);
     }
+    /// Returns the longest sibling of the part that fits.
     uint32_t siblingOf(uint32_t part, uint32_t room) const {
         uint32_t best = kNone;
         if (parts_[part].parent == kNone) return best;
@@ -107,6 +108,7 @@ class LinesOfParts {
                 best = sibling;
         return best;
     }
+    /// Returns the longest part that is ready and fits.
     uint32_t longest(uint32_t room) {
         for (size_t size = std::min(room, lineSlots_ - 1); size > 0; --size) {
             std::vector<uint32_t>& parts = bySize_[size];
@@ -115,7 +117,8 @@ class LinesOfParts {
         }
         return kNone;
     }
-    /// When all that are ready have more than `size` items: the one whose cost grows least with so many.
+    /// Returns the part whose cost grows least if only `size` items of it are placed, for when all parts that
+    /// are ready have more items.
     uint32_t cheapestOf(uint32_t size) const {
         uint32_t best = kNone;
         double least = std::numeric_limits<double>::infinity();
@@ -135,7 +138,7 @@ class LinesOfParts {
     uint32_t lineSlots_;
     size_t spareSlots_;
     ConnectedParts best_;
-    std::vector<Part> parts_;                    // those that are placed, or ready for it
+    std::vector<Part> parts_;                    // placed or ready
     std::vector<std::vector<uint32_t>> bySize_;  // parts that are ready and not full
     std::priority_queue<uint32_t, std::vector<uint32_t>, Lighter> first_;
     ClusterLines lines_;
@@ -152,7 +155,7 @@ ClusterLines growLines(std::span<const TreeItem> items, uint32_t lineSlots) {
         return items[a].weight != items[b].weight ? items[a].weight < items[b].weight : a > b;
     };
     ClusterLines lines, shorter;
-    std::vector<uint32_t> roots{0};  // the next one last
+    std::vector<uint32_t> roots{0};  // of lines; the next is the last
     while (!roots.empty()) {
         std::priority_queue<uint32_t, std::vector<uint32_t>, decltype(lighter)> border(lighter);
         border.push(roots.back());
@@ -169,7 +172,7 @@ ClusterLines growLines(std::span<const TreeItem> items, uint32_t lineSlots) {
         std::reverse(roots.begin() + behind, roots.end());
         (line.size() == lineSlots ? lines : shorter).push_back(std::move(line));
     }
-    // Nothing is below a line that ended short.
+    // Short lines share lines. They have nothing below them, so they may come last.
     std::stable_sort(shorter.begin(), shorter.end(),
                      [](const auto& a, const auto& b) { return a.size() > b.size(); });
     const size_t full = lines.size();

@@ -1,4 +1,4 @@
-// The records of an address cluster in lines.
+// Divides the records of an address cluster into lines.
 #pragma once
 
 #include <span>
@@ -8,16 +8,16 @@
 
 namespace bvhio {
 
-/// Items of one line each, at most `lineSlots`, parents before their children.
+/// The items of each line: at most `lineSlots` of them, and parents before their children.
 using ClusterLines = std::vector<std::vector<uint32_t>>;
 
-/// Lines with the fewest expected steps from one to another, as far as connected parts of a cluster go; what
-/// room these leave is filled with others. With each line but the last filled up by padding they take at
-/// most `maxSlots` slots, of which there are no fewer than items.
+/// Divides a cluster into connected parts, each in a line, with the fewest expected steps from one part to
+/// another. Room that a part leaves in its line is filled with other parts. The lines take at most `maxSlots`
+/// slots when all but the last are padded. `maxSlots` must be at least the number of items.
 ClusterLines packLines(std::span<const TreeItem> items, uint32_t lineSlots, uint32_t maxSlots);
 
-/// Lines as the paper has them: each grows from its root by the heaviest item at its border; full ones come
-/// first, short ones share lines, the longest first.
+/// Makes lines as in the paper: each grows from its root by the heaviest item at its border. Full lines come
+/// first; short ones, the longest first, share lines.
 ClusterLines growLines(std::span<const TreeItem> items, uint32_t lineSlots);
 
 }  // namespace bvhio

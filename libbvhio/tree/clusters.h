@@ -1,15 +1,15 @@
-// Two-level clustering: divides the pairs of a tree into address clusters, in which short pointers reach
-// everything, and the records of each into cache clusters, which fill a line.
+// Two-level clustering. The pairs of a tree are divided into address clusters, within which pointers are
+// short. The records of each address cluster are divided into cache clusters, which fill a line each.
 //
 // G. Liktor, K. Vaidyanathan, "Bandwidth-Efficient BVH Layout for Incremental Hardware Traversal", HPG 2016.
-// An address cluster grows there from its root by the largest record at its border until it is full, and
-// each pair left at the border becomes a cluster of its own, however little is below it; cache clusters grow
-// alike, and those that end up short share lines.
+// In the paper an address cluster grows from its root, always by the largest record at its border, until it
+// is full. Each pair left at the border becomes the root of another cluster, however little is below it.
+// Cache clusters grow the same way, and those that end up short share lines.
 //
-// Departures (ClusterMethod::cheapest): a tree knapsack finds the cuts that cost the least in glue fetched
-// and slots spent together (tree/cluster_cuts.h), and another one the lines with the fewest expected changes
-// from one to another (tree/cluster_lines.h); what small parts leave of lines is filled with others, or, in
-// a cluster too full for lines that end short, with the first of a larger part.
+// Departures (ClusterMethod::cheapest): a tree knapsack finds the cuts with the least total cost of fetched
+// glue and used slots (tree/cluster_cuts.h). Another one finds the lines that a walk changes least often
+// (tree/cluster_lines.h). The room that small parts leave in lines is filled with other parts. In a cluster
+// too full for lines that end short, it is filled with the first items of a larger part.
 #pragma once
 
 #include <span>
@@ -27,8 +27,8 @@ struct ClusterOptions {
     ClusterMethod method{};
 };
 
-/// `weights` says how often each pair is fetched, by half the index of its left node, a parent's at least as
-/// often as its children's; without it areas do. The order of nodes in memory does not matter.
+/// Divides a tree into clusters. `weights` is how often each pair is fetched, by half the index of its left
+/// node, and at most its parent's; without it areas count. The order of nodes in memory does not matter.
 SlotMap makeClusters(const Bvh& bvh, const ClusterOptions& options, std::span<const double> weights = {});
 
 }  // namespace bvhio

@@ -1,6 +1,6 @@
-// Subtrees are walked by tasks, each writing its nodes depth first into an array of its own; the nodes above
-// them are few. Walks that go deeper than kMaxDepth give up, and the tree is balanced first: rare enough to
-// be paid for only then.
+// Tasks walk the subtrees; each task writes its nodes in depth-first order into an array of its own. The few
+// nodes above the subtrees are handled by one thread. A walk that goes deeper than kMaxDepth gives up; the
+// tree is then balanced and walked again. That is rare, so only such trees pay for it.
 
 #include "tree/collapse.h"
 
@@ -25,12 +25,12 @@ struct Rule {
 
 struct TooDeep {};
 
-/// A subtree that was walked: children and leaves' ranges count from the start of its own arrays.
+/// A subtree that was walked. Its indices of children and of leaves' ranges start at 0, in its own arrays.
 struct Part {
     Node root;
     std::vector<Node> nodes;
     std::vector<uint32_t> primitives;
-    double cost = 0;  // times areas
+    double cost = 0;  // SAH cost, not yet divided by the root's area
 };
 
 class Walk {
@@ -38,7 +38,7 @@ class Walk {
     Walk(const LooseTree& tree, const std::optional<Rule>& rule, Part& part)
         : tree_(tree), rule_(rule), part_(part) {}
 
-    /// Appends the subtree of a node to the part; returns its cost.
+    /// Appends the subtree of a node to the part, and returns the subtree's cost.
     double walk(uint32_t index, uint32_t depth, Node& out) {
         if (depth > kMaxDepth) throw TooDeep();
         const Node& node = tree_.nodes[index];
@@ -49,7 +49,7 @@ class Walk {
             out = {node.bounds, firstPrimitive, node.primitiveCount};
             return rule_ ? rule_->costs.intersection * halfArea(node.bounds) * node.primitiveCount : 0;
         }
-        // What is below the right child may be far away, and its turn comes later.
+        // The right child's children may be far away in memory, and are needed later: prefetch them.
         const Node& next = tree_.nodes[node.right()];
         hwy::Prefetch(next.isLeaf() ? &next : &tree_.nodes[next.left()]);
         const auto pair = uint32_t(part_.nodes.size());
@@ -70,12 +70,13 @@ class Walk {
         return cost;
     }
 
-    /// Makes `node`, which has the references from `first` on below it, a leaf if that costs no more than
-    /// `cost`, which it then lowers.
+    /// Turns `node` into a leaf of all references from `first` on, if that costs no more than `cost`; if so,
+    /// sets `cost` to the leaf's. Returns whether it did.
     bool becomesLeaf(uint32_t first, double& cost, Node& node) {
         const auto size = uint32_t(part_.primitives.size()) - first;
         uint32_t count = size;
-        // With duplicates there may be fewer triangles; more than a few times fewer is not worth looking.
+        // With duplicates there may be fewer triangles than references, but hardly fewer than a quarter:
+        // larger subtrees are not worth counting.
         if (size > rule_->maxLeafSize && (!rule_->duplicates || size / 4 > rule_->maxLeafSize)) return false;
         if (rule_->duplicates) {
             sorted_.assign(part_.primitives.begin() + first, part_.primitives.end());
@@ -103,7 +104,7 @@ class Walk {
     std::vector<uint32_t> sorted_;
 };
 
-/// The whole tree in parts: the subtrees, and the nodes above them.
+/// The whole tree in parts: subtrees that are walked in parallel, and the nodes above them.
 class Gathering {
   public:
     Gathering(const LooseTree& tree, const std::optional<Rule>& rule) : tree_(tree), rule_(rule) {
@@ -126,6 +127,7 @@ class Gathering {
 
     double cost() const { return parts_[0].cost; }
 
+    /// Joins the parts into one tree.
     Bvh gather() {
         places_.resize(top_.size());
         place(0);
@@ -151,13 +153,14 @@ class Gathering {
   private:
     static constexpr size_t kSubtrees = 256, kWorthCutting = 8192;
 
-    /// A node at or above the cut; its children are adjacent, 0 = none: the root of a subtree or a leaf.
+    /// A node at or above the cut. `children` is the index of its left child in `top_`; the right child is
+    /// the next. 0 means no children: the node is the root of a subtree, or a leaf.
     struct TopNode {
         uint32_t index, depth;
         uint32_t children = 0;
     };
 
-    /// Opens nodes level by level until there are subtrees enough for all threads.
+    /// Opens nodes level by level until there are enough subtrees for all threads.
     void cut() {
         top_.push_back({0, 0});
         const size_t wanted = tree_.nodes.size() >= kWorthCutting ? kSubtrees : 1;
@@ -176,7 +179,7 @@ class Gathering {
             if (top_[i].children == 0) subtrees_.push_back(i);
     }
 
-    /// Gives a node above the cut its cost, and makes it a part of its own where it becomes a leaf.
+    /// Computes the cost of a node above the cut. If the node becomes a leaf, makes a part of it.
     void join(uint32_t top) {
         Part& part = parts_[top];
         const Node& node = tree_.nodes[top_[top].index];
@@ -194,7 +197,7 @@ class Gathering {
             part.primitives = {};
     }
 
-    /// The primitives below a top node; false when they are too many for a leaf.
+    /// Appends the primitives below a top node. Returns false if there are too many for a leaf.
     bool collect(uint32_t top, std::vector<uint32_t>& primitives) const {
         const uint32_t children = top_[top].children;
         if (children != 0) return collect(children, primitives) && collect(children + 1, primitives);
@@ -203,6 +206,7 @@ class Gathering {
         return primitives.size() / 4 <= rule_->maxLeafSize;
     }
 
+    /// Assigns places in the whole tree to the subtree of a top node.
     void place(uint32_t top) {
         const uint32_t children = top_[top].children;
         if (children == 0) {
@@ -220,7 +224,7 @@ class Gathering {
         place(children + 1);
     }
 
-    /// A part's root as it stands in the whole tree.
+    /// Returns the root of a part, with indices into the whole tree.
     Node placedRoot(uint32_t top) const {
         Node node = parts_[top].root;
         if (top_[top].children == 0) node.first += node.isLeaf() ? places_[top].second : places_[top].first;
@@ -233,12 +237,12 @@ class Gathering {
     std::vector<uint32_t> subtrees_;
     std::vector<Part> parts_;                                 // one for each of top_
     std::vector<std::pair<uint32_t, uint32_t>> places_;       // of each part's nodes and primitives
-    std::vector<std::pair<uint32_t, uint32_t>> placedPairs_;  // of top nodes, and where they stand
+    std::vector<std::pair<uint32_t, uint32_t>> placedPairs_;  // of top nodes, and their places
     std::vector<uint32_t> placedParts_;
     uint32_t nodeCount_ = 2, primitiveCount_ = 0;
 };
 
-/// Calls body(Gathering) over the tree, balanced first where it is too deep.
+/// Calls body(Gathering) for the tree. If the tree is too deep, balances it first.
 template <class Body>
 auto gatherWith(const LooseTree& tree, const std::optional<Rule>& rule, const Body& body) {
     try {
@@ -250,7 +254,7 @@ auto gatherWith(const LooseTree& tree, const std::optional<Rule>& rule, const Bo
 }
 
 Rule ruleFor(const LooseTree& tree, const SahCosts& costs, uint32_t maxLeafSize) {
-    // Triangles are numbered without gaps, each in some leaf.
+    // Triangles are numbered without gaps, and each is in a leaf, so the highest number gives their count.
     const auto highest = std::max_element(tree.primitives.begin(), tree.primitives.end());
     return {costs, maxLeafSize, tree.primitives.size() > size_t(*highest) + 1};
 }

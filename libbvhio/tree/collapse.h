@@ -1,4 +1,4 @@
-// From a tree in the making to a canonical one: nodes depth first, and leaves where they are cheaper.
+// Turns a tree in the making into a canonical one: nodes depth first, and leaves where they are cheaper.
 #pragma once
 
 #include <span>
@@ -7,23 +7,23 @@
 
 namespace bvhio {
 
-/// A tree while a method makes or changes it. As Bvh, but pairs may stand anywhere, also before their
-/// parents; those that no node has as children are ignored; and it may be deeper than kMaxDepth.
+/// A tree while a method makes or changes it. Unlike in Bvh, pairs may be anywhere, even before their
+/// parents; pairs that are not the children of a node are ignored; and the tree may be deeper than kMaxDepth.
 struct LooseTree {
     std::span<const Node> nodes;
     std::span<const uint32_t> primitives;
 };
 
-/// The canonical tree with the same nodes, depth first, and its primitives in that order. What would lie
-/// deeper than kMaxDepth is balanced (tree/limit_depth.h). Parallel.
+/// Returns the canonical tree with the same nodes in depth-first order, and the primitives in that order.
+/// Subtrees that would exceed kMaxDepth are balanced (tree/limit_depth.h). Parallel.
 Bvh depthFirst(const LooseTree& tree);
 
-/// The same, and subtrees of at most `maxLeafSize` triangles become leaves where that costs no more, bottom
-/// up (Domingues and Pedrini 2015, 3.5). A triangle that spatial splits left several times in such a subtree
-/// counts once, and is kept once. Leaves that the tree has stay, whatever their size.
+/// Does the same, and turns subtrees of at most `maxLeafSize` triangles into leaves where that costs no more,
+/// bottom up (Domingues and Pedrini 2015, 3.5). A triangle with several references in such a subtree, by
+/// spatial splits, counts once and is kept once. Existing leaves stay, whatever their size.
 Bvh collapse(const LooseTree& tree, const SahCosts& costs, uint32_t maxLeafSize);
 
-/// The SAH cost that `collapse` would reach, without making the tree.
+/// Returns the SAH cost that `collapse` would reach, without making the tree.
 double collapsedCost(const LooseTree& tree, const SahCosts& costs, uint32_t maxLeafSize);
 
 }  // namespace bvhio

@@ -26,13 +26,13 @@ ConnectedParts::ConnectedParts(std::span<const TreeItem> items, uint32_t maxSize
     for (size_t item = items.size(); item-- > 0;) solve(uint32_t(item));
 }
 
-/// Of a child with so many items in its parent's part.
+/// Returns the cost of a child's subtree, `size` items of which are in its parent's part.
 double ConnectedParts::costOfShare(uint32_t child, uint32_t size) const {
     if (child == TreeItem::kNone) return 0;
     return size == 0 ? apart_[child] : cost(child, size);
 }
 
-/// How many items at most a child may add to its parent's part.
+/// Returns the most items that a child's subtree may add to its parent's part.
 uint32_t ConnectedParts::mayJoin(uint32_t parent, uint32_t child) const {
     if (child == TreeItem::kNone || (!within_.empty() && within_[child] != within_[parent])) return 0;
     return std::min(mostItems(child), maxSize_ - 1);
@@ -49,7 +49,7 @@ void ConnectedParts::solve(uint32_t item) {
             costs[i + j] = sum;
             left_[first_[item] + i + j] = uint16_t(i);
         }
-    // The largest of equal ones leaves the fewest lines.
+    // Among equal costs, the largest part leaves the fewest lines.
     uint32_t best = 1;
     for (uint32_t size = 2; size <= mostItems_[item]; ++size)
         if (costs[size - 1] <= costs[best - 1]) best = size;
@@ -61,7 +61,7 @@ std::vector<uint32_t> ConnectedParts::firstItems() const {
     std::vector<uint32_t> firstItems(items_.size());
     std::vector<uint32_t> parents(items_.size());
     std::vector<uint16_t> joined(items_.size(),
-                                 0);  // items of the part from this one on down; 0: it starts one
+                                 0);  // items of the part in this item's subtree; 0: it starts a part
     for (uint32_t item = 0; item < items_.size(); ++item) {
         const bool starts = joined[item] == 0;
         firstItems[item] = starts ? item : firstItems[parents[item]];

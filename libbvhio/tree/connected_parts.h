@@ -1,9 +1,9 @@
-// Dividing a binary tree into connected parts that fit into a line, or a page, so that a walk from the root
-// down enters as few as possible.
+// Divides a binary tree into connected parts that fit into a line, or a page, so that a walk from the root
+// down enters as few parts as possible.
 //
-// Ours; a dynamic program from the leaves up: for each item and each size, the least cost of its subtree
-// where the item's part has so many items from it on down. A child joins the part with some of its own
-// subtree, or starts another part and costs its weight.
+// Our own method, a dynamic program from the leaves up. For each item and each size it finds the least cost
+// of the item's subtree if the item's part has that many items in this subtree. A child either joins its
+// parent's part with some of its own subtree, or starts another part, which costs the child's weight.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace bvhio {
 
-/// What is divided: items that come behind their parents.
+/// An item of the tree that is divided. Items come after their parents.
 struct TreeItem {
     static constexpr uint32_t kNone = 0xFFFFFFFF;
 
@@ -21,25 +21,25 @@ struct TreeItem {
     std::array<uint32_t, 2> children{kNone, kNone};
 };
 
-/// The division whose parts' first items weigh least together: how many parts a walk enters on average.
+/// The division with the least sum of the weights of first items: how many parts a walk enters on average.
 class ConnectedParts {
   public:
-    /// Parts have at most `maxSize` items, 65535 at most. Where `within` has an element for each item, no
-    /// part holds items of two. O(n maxSize). Refers to both.
+    /// Divides the tree into parts of at most `maxSize` items, 65535 at most. If `within` is given, it has an
+    /// element for each item, equal for all items of a part. O(n maxSize). Refers to both spans.
     ConnectedParts(std::span<const TreeItem> items, uint32_t maxSize, std::span<const uint32_t> within = {});
 
-    /// For each item the first one, which is the topmost, of its part.
+    /// Returns for each item the first (topmost) item of its part.
     std::vector<uint32_t> firstItems() const;
 
-    /// How large the part is that starts at an item where one does: of equal costs the largest.
+    /// Returns the size of the best part that starts at the item; of equal costs, the largest.
     uint32_t bestSize(uint32_t item) const { return bestSize_[item]; }
-    /// How large it could be.
+    /// Returns the largest possible size of a part that starts at the item.
     uint32_t mostItems(uint32_t item) const { return item == TreeItem::kNone ? 0 : mostItems_[item]; }
-    /// Of `size` items from this one on down, how many are below its left child, and that child's; the others
-    /// but this one are below its right child.
+    /// Returns how many of the part's `size` items, from this item down, go to the left subtree. The rest,
+    /// minus this item, go to the right subtree.
     uint32_t sizeOnTheLeft(uint32_t item, uint32_t size) const { return left_[first_[item] + size - 1]; }
-    /// What the subtree costs, without the item's own weight, where the part has `size` items from it on
-    /// down; infinite where it can't.
+    /// Returns the cost of the item's subtree, without the item's own weight, if the part has `size` items in
+    /// the subtree; infinity if that is impossible.
     double cost(uint32_t item, uint32_t size) const { return costs_[first_[item] + size - 1]; }
 
   private:
@@ -51,10 +51,10 @@ class ConnectedParts {
     std::span<const uint32_t> within_;
     uint32_t maxSize_;
     std::vector<uint32_t> mostItems_;
-    std::vector<size_t> first_;  // of each item, in costs_ and left_: one element for each size from 1 on
+    std::vector<size_t> first_;  // of each item, in costs_ and left_: an element for each size from 1 on
     std::vector<double> costs_;
     std::vector<uint16_t> left_;
-    std::vector<double> apart_;  // the cost where the item starts a part, its weight included
+    std::vector<double> apart_;  // the cost if the item starts a part, with the item's weight
     std::vector<uint16_t> bestSize_;
 };
 

@@ -1,4 +1,4 @@
-// How deep nodes lie, in edges from the root.
+// The depth of nodes, in edges from the root.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace bvhio {
 
-/// The depth of each pair of siblings, by half the index of its left node, in a tree whose children lie
-/// behind their parents; it may be deeper than kMaxDepth. The root has the first.
+/// Returns the depth of each pair of siblings, by half the index of its left node; element 0 is the root's.
+/// Children must come after their parents, but the tree may be deeper than kMaxDepth.
 std::vector<uint32_t> depthsOfPairs(const Bvh& bvh);
 
-/// The depth of the deepest leaf.
+/// Returns the depth of the deepest leaf.
 uint32_t depthOf(const Bvh& bvh);
 
 }  // namespace bvhio

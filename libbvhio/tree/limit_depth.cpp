@@ -13,7 +13,7 @@ class DepthLimiter {
 
     std::vector<Node> run() && {
         measure();
-        std::vector<std::pair<uint32_t, uint32_t>> open{{0, 0}};  // nodes whose place is settled, and depths
+        std::vector<std::pair<uint32_t, uint32_t>> open{{0, 0}};  // nodes that stay, and their depths
         while (!open.empty()) {
             const auto [index, depth] = open.back();
             open.pop_back();
@@ -30,12 +30,12 @@ class DepthLimiter {
     }
 
   private:
-    /// Whether a subtree could be placed at a depth if it were balanced.
+    /// Returns whether a subtree at this depth would keep to the limit if it were balanced.
     bool fits(uint32_t index, uint32_t depth) const {
         return depth + uint32_t(std::bit_width(leaves_[index] - 1)) <= kMaxDepth;
     }
 
-    /// The nodes below one and itself, each before its children, left before right.
+    /// Returns the nodes of a subtree, each before its children, left before right.
     std::vector<uint32_t> preorder(uint32_t root) const {
         std::vector<uint32_t> order, stack{root};
         while (!stack.empty()) {
@@ -49,6 +49,7 @@ class DepthLimiter {
         return order;
     }
 
+    /// Counts the leaves and finds the height of each subtree.
     void measure() {
         const std::vector<uint32_t> order = preorder(0);
         for (size_t i = order.size(); i-- > 0;) {
@@ -59,6 +60,7 @@ class DepthLimiter {
         }
     }
 
+    /// Rebuilds a subtree as a balanced one over the same leaves.
     void balance(uint32_t root) {
         std::vector<Node> leaves;
         std::vector<uint32_t> pairs;
@@ -71,7 +73,7 @@ class DepthLimiter {
         nodes_[root] = halve(leaves, pairs);
     }
 
-    /// A balanced tree over leaves; takes what pairs it needs from the end.
+    /// Builds a balanced tree over leaves, in pairs that it takes from the end of `pairs`.
     Node halve(std::span<const Node> leaves, std::vector<uint32_t>& pairs) {
         if (leaves.size() == 1) return leaves[0];
         const uint32_t pair = pairs.back();

@@ -1,4 +1,4 @@
-// The bound on depth, for methods that do not keep it by themselves.
+// Limits the depth of trees, for methods that may exceed kMaxDepth.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace bvhio {
 
-/// The nodes of a tree that may be deeper than kMaxDepth, changed so that it is not: the highest subtrees
-/// that could exceed it are halved, over their leaves in depth-first order, down to these. The rest stays.
+/// Returns the nodes of a tree whose depth is at most kMaxDepth, made from one that may be deeper. The
+/// highest subtrees that could exceed the limit are rebuilt by halving their leaves, in depth-first order,
+/// again and again. The rest stays.
 std::vector<Node> limitDepth(std::span<const Node> nodes);
 
 }  // namespace bvhio

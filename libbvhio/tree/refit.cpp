@@ -7,7 +7,8 @@
 namespace bvhio {
 namespace {
 
-/// Leaves whose boxes are found together: their primitives lie scattered, and a batch is fetched ahead.
+/// Leaves whose boxes are computed together, so that their primitives, which lie scattered, can be
+/// prefetched.
 struct RefitBatch {
     std::vector<uint32_t> leaves, primitives;
     std::vector<Aabb> boxes;
@@ -46,7 +47,7 @@ void fitLeaves(std::span<Node> nodes, std::span<const uint32_t> primitives,
 Bvh refit(const Bvh& bvh, const PrimitiveBounds& primitiveBounds) {
     AlignedVector<Node> nodes(bvh.nodes.begin(), bvh.nodes.end());
     fitLeaves(nodes, bvh.primitives, primitiveBounds);
-    // Children lie behind their parents, so a reverse sweep meets them first.
+    // Children come after their parents, so a reverse sweep meets them first.
     for (size_t i = nodes.size(); i-- > 0;)
         if (i != 1 && !nodes[i].isLeaf())
             nodes[i].bounds = unite(nodes[nodes[i].left()].bounds, nodes[nodes[i].right()].bounds);

@@ -1,16 +1,16 @@
-// Fits a tree's boxes to primitives that moved.
+// Fits the boxes of a tree to primitives that have moved.
 #pragma once
 
 #include "tree/validate.h"
 
 namespace bvhio {
 
-/// Gives each leaf the smallest box around its primitives; other nodes stay as they are.
+/// Gives each leaf the smallest box around its primitives, and leaves inner nodes as they are.
 void fitLeaves(std::span<Node> nodes, std::span<const uint32_t> primitives,
                const PrimitiveBounds& primitiveBounds);
 
-/// The same tree, with each box the smallest around its primitives. Boxes of spatial splits grow to their
-/// whole triangles.
+/// Returns the same tree, where each box is the smallest one around its primitives. Leaves that hold parts of
+/// triangles (by spatial splits) get boxes around the whole triangles.
 Bvh refit(const Bvh& bvh, const PrimitiveBounds& primitiveBounds);
 
 }  // namespace bvhio

@@ -1,4 +1,4 @@
-// The surface area heuristic, as a builder's currency and as a tree's reported cost.
+// The surface area heuristic (SAH): the cost that builders minimise and that reports show.
 #pragma once
 
 #include "tree/bvh.h"
@@ -12,8 +12,8 @@ struct SahCosts {
     bool operator==(const SahCosts&) const = default;
 };
 
-/// The SAH cost of a tree: (traversal * sum of inner areas + intersection * sum of leaf areas * primitives) /
-/// root area. When the root has no area (all geometry on one point or line), every area ratio counts as 1.
+/// Returns the SAH cost: (traversal * sum of inner areas + intersection * sum of (leaf area * primitives)) /
+/// root area. If the root has no area (all geometry on one point or line), every ratio of areas counts as 1.
 double sahCost(const Bvh& bvh, const SahCosts& costs);
 
 }  // namespace bvhio

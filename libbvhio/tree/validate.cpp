@@ -1,7 +1,7 @@
-// Three sweeps. The first looks at each node on its own, in any order, and marks what it refers to: the pair
-// of its children, the start of its range of primitives, each primitive. The second looks at the marks: by
-// the pigeonhole principle, as many inner nodes as pairs and no pair without a mark mean one parent each. The
-// third follows the parents for the depth.
+// Validation takes three sweeps. The first looks at each node on its own, in any order, and marks what the
+// node refers to: the pair of its children, the start of its range of primitives, and each primitive. The
+// second checks the marks: if there are as many inner nodes as pairs, and each pair has a mark, then by the
+// pigeonhole principle each pair has one parent. The third follows the parents to find the depth.
 
 #include "tree/validate.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr size_t kGrain = 16384;
 
-/// Findings of one stretch of work, at most so many of a kind.
+/// The findings of one chunk of work, at most `maxPerId` of each kind.
 class Findings {
   public:
     explicit Findings(size_t maxPerId) : maxPerId_(maxPerId) {}
@@ -32,7 +32,7 @@ class Findings {
         for (const Finding& finding : other.list_) add(finding.id, finding.node, finding.message);
     }
     bool empty() const { return list_.empty(); }
-    /// Whether an index is wrong, and not only a box.
+    /// Returns whether an index is wrong, and not only a box.
     bool structural() const {
         return std::any_of(list_.begin(), list_.end(),
                            [](const Finding& f) { return f.id < FindingId::boxNotFinite; });
@@ -50,7 +50,7 @@ class Findings {
 };
 
 /// Calls body(begin, end, findings) over [0, count) in parallel, and gathers the findings in order. Returns
-/// their sum of counts.
+/// the sum of the counts that body returns.
 template <class Body>
 uint64_t sweep(size_t count, Findings& findings, size_t maxPerId, const Body& body) {
     std::atomic<uint64_t> sum = 0;
@@ -67,7 +67,7 @@ uint64_t sweep(size_t count, Findings& findings, size_t maxPerId, const Body& bo
     return sum;
 }
 
-/// Several threads may mark the same entry; any of the marks may stay.
+/// Marks an entry. Several threads may mark the same entry; any one of the marks may remain.
 template <class T>
 void mark(T& entry, T value) {
     std::atomic_ref<T>(entry).store(value, std::memory_order_relaxed);
@@ -77,7 +77,7 @@ std::string number(uint64_t n) {
     return std::to_string(n);
 }
 
-/// Leaves whose boxes are to be compared with their primitives'.
+/// Leaves whose boxes are waiting to be compared with the boxes of their primitives.
 struct LeafBatch {
     std::vector<uint32_t> leaves, primitives;
     std::vector<Aabb> boxes;
@@ -104,9 +104,9 @@ struct Validator {
     size_t maxPerId;
 
     Findings findings{maxPerId};
-    std::vector<uint32_t> parentOfPair;  // index of the parent + 1, 0 without one
+    std::vector<uint32_t> parentOfPair;  // index of the parent + 1; 0 if there is no parent
     std::vector<uint16_t>
-        leafAt;                   // size of the leaf that starts at this entry of `primitives`, 0 without one
+        leafAt;  // size of the leaf that starts at this entry of `primitives`; 0 if none does
     std::vector<uint8_t> inLeaf;  // 1 for a primitive that some leaf refers to
     uint32_t treeDepth = 0;
 
@@ -116,15 +116,16 @@ struct Validator {
         const uint32_t left = nodes[i].first;
         if (left % 2 != 0 || left <= i || left >= nodes.size()) {
             found.add(FindingId::childIndex, i,
-                      "node " + number(i) + " has its children at " + number(left) +
-                          ": not an even index behind it and below " + number(nodes.size()));
+                      "node " + number(i) + " has its children at index " + number(left) +
+                          ", which is not even, above " + number(i) + " and below " + number(nodes.size()));
             return;
         }
         mark(parentOfPair[left / 2], uint32_t(i + 1));
         for (const uint32_t child : {left, left + 1})
             if (!nodes[i].bounds.contains(nodes[child].bounds))
                 found.add(FindingId::childOutsideParent, child,
-                          "the box of node " + number(child) + " leaves that of its parent " + number(i));
+                          "the box of node " + number(child) + " extends outside the box of its parent " +
+                              number(i));
     }
 
     void checkLeaf(size_t i, LeafBatch& batch, Findings& found) {
@@ -133,8 +134,9 @@ struct Validator {
             uint64_t(leaf.first) + leaf.primitiveCount > primitives.size()) {
             found.add(FindingId::leafRange, i,
                       "leaf " + number(i) + " has " + number(leaf.primitiveCount) +
-                          " primitives from entry " + number(leaf.first) + ": at most " +
-                          number(kMaxLeafSize) + " of " + number(primitives.size()) + " are allowed");
+                          " primitives from entry " + number(leaf.first) + " on: at most " +
+                          number(kMaxLeafSize) + " are allowed, within the " + number(primitives.size()) +
+                          " entries");
             return;
         }
         mark(leafAt[leaf.first], uint16_t(leaf.primitiveCount));
@@ -142,8 +144,8 @@ struct Validator {
         for (const uint32_t primitive : range) {
             if (primitive >= primitiveCount) {
                 found.add(FindingId::primitiveIndex, i,
-                          "leaf " + number(i) + " refers to triangle " + number(primitive) + " of " +
-                              number(primitiveCount));
+                          "leaf " + number(i) + " refers to triangle " + number(primitive) +
+                              ", but there are only " + number(primitiveCount));
                 return;
             }
             mark(inLeaf[primitive], uint8_t(1));
@@ -151,7 +153,7 @@ struct Validator {
         if (primitiveBounds && !split()) batch.add(i, range);
     }
 
-    /// Compares the boxes of the batch's leaves with their primitives', and empties it.
+    /// Compares the boxes of the batch's leaves with the boxes of their primitives, and empties the batch.
     void checkBoxes(LeafBatch& batch, Findings& found) {
         if (batch.leaves.empty()) return;
         batch.boxes.resize(batch.primitives.size());
@@ -163,16 +165,17 @@ struct Validator {
                 inside &= nodes[leaf].bounds.contains(*box);
             if (!inside)
                 found.add(FindingId::primitiveOutsideLeaf, leaf,
-                          "a triangle leaves the box of leaf " + number(leaf));
+                          "a triangle extends outside the box of leaf " + number(leaf));
         }
         batch.leaves.clear();
         batch.primitives.clear();
     }
 
-    /// Returns the number of inner nodes in the upper half of the sum and that of leaves in the lower.
+    /// Returns the number of inner nodes in the upper half of the result and the number of leaves in the
+    /// lower.
     uint64_t checkNodes(size_t begin, size_t end, Findings& found) {
-        // Sorted into inner nodes and leaves first, without a branch: it would be guessed wrong every other
-        // time.
+        // Nodes are first sorted into inner nodes and leaves, without a branch: the processor would predict
+        // it wrong every other time.
         std::array<uint32_t, 1024> innerNodes, leaves;
         uint64_t innerCount = 0, leafCount = 0;
         LeafBatch batch;
@@ -200,6 +203,7 @@ struct Validator {
         return innerCount << 32 | leafCount;
     }
 
+    /// Checks that each pair of siblings has one parent.
     void checkPairs(uint64_t innerNodes) {
         const size_t pairs = nodes.size() / 2;
         const uint64_t marked =
@@ -225,6 +229,8 @@ struct Validator {
         }
     }
 
+    /// Checks that the leaves' ranges cover the primitives without overlap, and that each triangle is in a
+    /// leaf.
     void checkCover(uint64_t leaves) {
         const size_t count = primitives.size();
         const uint64_t starts =
@@ -232,12 +238,11 @@ struct Validator {
                 uint64_t seen = 0;
                 for (size_t i = begin; i < end; ++i) {
                     if (leafAt[i] == 0) {
-                        if (i == 0)
-                            found.add(FindingId::leafCover, kNowhere, "no leaf has the first primitive");
+                        if (i == 0) found.add(FindingId::leafCover, kNowhere, "no leaf starts at entry 0");
                         continue;
                     }
                     ++seen;
-                    // The next leaf must start where this one ends, and none before that.
+                    // The next leaf must start where this one ends, and not before.
                     size_t next = i + 1;
                     const size_t stop = i + leafAt[i];
                     while (next < stop && leafAt[next] == 0) ++next;
@@ -260,7 +265,7 @@ struct Validator {
         });
     }
 
-    /// Follows each pair to its parent's, which lies before it.
+    /// Finds the depth: each pair is one deeper than its parent's pair, which comes before it.
     void checkDepth() {
         std::vector<uint8_t> depthOfPair(nodes.size() / 2);
         uint8_t deepest = 0;
@@ -268,7 +273,8 @@ struct Validator {
             const uint8_t depth = uint8_t(depthOfPair[(parentOfPair[pair] - 1) / 2] + 1);
             if (depth > kMaxDepth) {
                 findings.add(FindingId::depth, 2 * pair,
-                             "node " + number(2 * pair) + " is deeper than " + number(kMaxDepth) + " edges");
+                             "node " + number(2 * pair) + " is more than " + number(kMaxDepth) +
+                                 " edges below the root");
                 return;
             }
             depthOfPair[pair] = depth;
@@ -277,7 +283,8 @@ struct Validator {
         treeDepth = deepest;
     }
 
-    /// Leaves of a triangle that several have: each must touch its box, and the hull of all must contain it.
+    /// Checks triangles that may be in several leaves: each of these leaves must touch the triangle's box,
+    /// and their hull must contain it.
     void checkSplitPrimitives() {
         std::vector<uint32_t> all(primitiveCount);
         std::iota(all.begin(), all.end(), 0u);
@@ -291,14 +298,14 @@ struct Validator {
                 if (common.isEmpty())
                     findings.add(
                         FindingId::primitiveOutsideLeaf, i,
-                        "triangle " + number(primitive) + " is apart from the box of its leaf " + number(i));
+                        "triangle " + number(primitive) + " does not touch the box of its leaf " + number(i));
                 hulls[primitive].extend(box);
             }
         }
         for (uint32_t primitive = 0; primitive < primitiveCount; ++primitive)
             if (!hulls[primitive].contains(boxes[primitive]))
                 findings.add(FindingId::primitiveOutsideLeaf, kNowhere,
-                             "triangle " + number(primitive) + " leaves the boxes of its leaves");
+                             "triangle " + number(primitive) + " extends outside the boxes of its leaves");
     }
 
     void run() {

@@ -10,20 +10,20 @@
 
 namespace bvhio {
 
-/// Writes the box of each primitive, given by indices below the primitive count. In batches, so that an
-/// implementation can fetch the data of later ones ahead: they lie scattered.
+/// Writes the box of each primitive of a batch; the indices are below the primitive count. A batch lets the
+/// function prefetch the data of later primitives, which lie scattered in memory.
 using PrimitiveBounds = std::function<void(std::span<const uint32_t> primitives, Aabb* boxes)>;
 
 struct Validation {
     std::vector<Finding> findings;  // 30xx and 40xx, by kind, then node; the same for any number of threads
-    uint32_t depth = 0;             // edges from the root to the deepest leaf; 0 when the structure is broken
+    uint32_t depth = 0;             // edges from the root to the deepest leaf; 0 if the structure is broken
 };
 
-/// Checks a tree that may be anything at all: no index is trusted. Parallel, O(n), and fast enough to run at
-/// every load. After `maxPerId` findings of one kind the rest of that kind is left out.
+/// Checks a tree without trusting any of its indices. Parallel, O(n), and fast enough to run at every load.
+/// Reports at most `maxPerId` findings of one kind.
 ///
-/// With a triangle in several leaves (references > primitiveCount), invariant 4 is checked as far as boxes
-/// go: each of the triangle's leaf boxes touches the triangle's box, and together their hull contains it.
+/// If triangles are in several leaves (references > primitiveCount), invariant 4 is checked only by boxes:
+/// each leaf box of a triangle must touch the triangle's box, and their hull must contain the triangle's box.
 Validation validate(const Bvh& bvh, uint32_t primitiveCount, const PrimitiveBounds& primitiveBounds,
                     size_t maxPerId = 8);
 

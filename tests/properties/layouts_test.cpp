@@ -85,7 +85,7 @@ TEST_P(EveryLayout, movesPairsBehindTheirParentsAndChangesNothingElse) {
 
                 const Bvh after = applyLayout(before, result);
                 if (!after.slots.empty()) {
-                    EXPECT_EQ(faultOfSlots(after), "");
+                    EXPECT_EQ(validateSlots(after), "");
                 }
                 ASSERT_NO_FATAL_FAILURE(test::expectValid(scene, after, kMaxLeafSize));
                 EXPECT_EQ(topologyHash(after), topologyHash(before));

@@ -84,7 +84,7 @@ TEST(QuantizedShortForm, keepsClustersThatFitAndMakesOthersAnew) {
     EXPECT_EQ(kept.lineSlots(), 4u);
     EXPECT_EQ(kept.slots().size(), bvh.slots.words.size());
     const Bvh decoded = kept.decode();
-    EXPECT_EQ(faultOfSlots(decoded), "");
+    EXPECT_EQ(validateSlots(decoded), "");
     EXPECT_EQ(topologyHash(decoded), topologyHash(bvh));
     const QuantizedShortForm again = encode(decoded);
     EXPECT_TRUE(test::sameBytes(again.decode(), decoded));

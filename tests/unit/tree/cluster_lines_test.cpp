@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t kAnySlots = 1u << 20;
 
-/// A random tree of items; children weigh no more than their parents.
+/// Returns a random tree of items. Children weigh no more than their parents.
 std::vector<TreeItem> randomItems(uint32_t count, Random& random) {
     std::vector<TreeItem> items(count);
     items[0].weight = 100;
@@ -22,7 +22,7 @@ std::vector<TreeItem> randomItems(uint32_t count, Random& random) {
     return items;
 }
 
-/// The expected steps from one line to another.
+/// Returns the expected number of steps from one line to another.
 double stepsBetween(const std::vector<TreeItem>& items, const ClusterLines& lines) {
     std::vector<size_t> lineOf(items.size());
     for (size_t line = 0; line < lines.size(); ++line)
@@ -63,7 +63,7 @@ TEST(ClusterLines, holdEveryItemBehindItsParent) {
         }
 }
 
-// Few of them end short: merging is what keeps padding low.
+// Few lines may end short: merging must keep padding low.
 TEST(ClusterLines, areNearlyFull) {
     Random random(2);
     const std::vector<TreeItem> items = randomItems(1000, random);
@@ -71,8 +71,8 @@ TEST(ClusterLines, areNearlyFull) {
     EXPECT_LE(growLines(items, 8).size(), 1000 / 8 + 8);
 }
 
-// Lines that took more padding than their cluster has slots would push those behind them out of reach, or off
-// their lines.
+// Lines with more padding than their cluster has free slots would push later lines out of reach of pointers,
+// or off the starts of lines.
 TEST(ClusterLines, keepToTheSlotsThereAre) {
     Random random(3);
     bool wasTight = false;
@@ -89,7 +89,7 @@ TEST(ClusterLines, keepToTheSlotsThereAre) {
     EXPECT_TRUE(wasTight);
 }
 
-// Against every way to cut a small tree into lines.
+// Compares with every way to cut a small tree into lines.
 TEST(ClusterLines, takeTheFewestStepsBetweenThem) {
     Random random(5);
     for (int round = 0; round < 40; ++round) {
@@ -110,7 +110,7 @@ TEST(ClusterLines, takeTheFewestStepsBetweenThem) {
             }
             if (fits) least = std::min(least, steps);
         }
-        // Lines that share what others left can only save steps.
+        // Lines shared by several parts can only save steps.
         EXPECT_LE(stepsBetween(items, packLines(items, 3, kAnySlots)), least + 1e-9) << round;
     }
 }

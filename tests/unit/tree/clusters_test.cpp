@@ -16,11 +16,11 @@ namespace {
 
 SlotStats clusteredStats(Bvh bvh, const ClusterOptions& options) {
     bvh.slots = makeClusters(bvh, options);
-    EXPECT_EQ(faultOfSlots(bvh), "");
+    EXPECT_EQ(validateSlots(bvh), "");
     return statsOf(bvh.slots);
 }
 
-// A pointer out of reach, a record before its parent's, or a pair left out make a tree that can't be traced.
+// With a pointer out of reach, a record before its parent's, or a missing pair, a tree cannot be traced.
 TEST(Clusters, ofAnySizeHaveEveryPairInReach) {
     for (const test::TestScene& testScene : test::testScenes()) {
         const Scene scene = testScene.make();
@@ -37,7 +37,7 @@ TEST(Clusters, ofAnySizeHaveEveryPairInReach) {
                         }
                         const SlotStats stats = clusteredStats(bvh, {pointerBits, lineSlots, method});
                         EXPECT_EQ(stats.records, bvh.nodes.size() / 2 - 1);
-                        // With lines a cut may save padding.
+                        // With longer lines a cut may save padding.
                         if (method == ClusterMethod::cheapest && lineSlots == 1 &&
                             stats.records <= 1u << pointerBits &&
                             bvh.primitives.size() <= SlotMap::maxEntries(pointerBits)) {
@@ -48,7 +48,7 @@ TEST(Clusters, ofAnySizeHaveEveryPairInReach) {
     }
 }
 
-// The deepest chains, to either side.
+// Tests the deepest chains, to either side.
 TEST(Clusters, holdTheDeepestChains) {
     for (const uint32_t side : {0u, 1u}) {
         std::vector<std::pair<uint32_t, uint32_t>> pairs{{0, 2}};
@@ -59,7 +59,7 @@ TEST(Clusters, holdTheDeepestChains) {
     }
 }
 
-/// The most entries that the leaves of a cluster own.
+/// Returns the largest number of entries that the leaves of a cluster own.
 uint32_t mostEntries(Bvh bvh, const ClusterOptions& options) {
     bvh.slots = makeClusters(bvh, options);
     std::vector<bool> starts(bvh.nodes.size() / 2 - 1);
@@ -75,7 +75,7 @@ uint32_t mostEntries(Bvh bvh, const ClusterOptions& options) {
     return most;
 }
 
-// What leaves own has to be in reach, too: here more than 2^11 - 2^8 entries.
+// The entries of leaves must be in reach, too. Here there are more than 2^11 - 2^8.
 TEST(Clusters, countTheEntriesOfLeaves) {
     std::vector<std::pair<uint32_t, uint32_t>> pairs{{0, 2}};
     for (uint32_t i = 0; i < 63; ++i) pairs.emplace_back(2 + i, 4 + 2 * i);
@@ -113,7 +113,7 @@ TEST(Clusters, spendLittleAndLessWithMoreBits) {
     EXPECT_GT(clusteredStats(bvh, {6, 8, ClusterMethod::paper}).glueShare(), 0.04);
 }
 
-/// The cost that tree/cluster_cuts.h minimises; infinite where a cluster is too large.
+/// Returns the cost that tree/cluster_cuts.h minimises; infinity if a cluster is too large.
 double costOfCuts(const std::vector<ClusterPair>& pairs, const ClusterLimits& limits) {
     double sum = 0, cost = 0;
     for (const ClusterPair& pair : pairs) sum += pair.weight;

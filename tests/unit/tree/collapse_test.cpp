@@ -14,7 +14,7 @@
 namespace bvhio {
 namespace {
 
-/// A chain: each pair is a leaf and the node above the rest; its boxes are intervals of x.
+/// Returns a chain: each pair is a leaf and the node above the rest. Boxes are intervals of x.
 std::vector<Node> chain(uint32_t leaves) {
     std::vector<Node> nodes(2 * leaves);
     const auto box = [&](uint32_t from) { return Aabb{{float(from), 0, 0}, {float(leaves), 1, 1}}; };
@@ -59,7 +59,8 @@ TEST(DepthFirst, balancesWhatIsTooDeep) {
     }
 }
 
-// Four unit cubes in a row, touching: one leaf costs 4 * 9 = 36; halves are cheaper only while a step is.
+// Four unit cubes in a row that touch: one leaf costs 4 * 9 = 36. Two halves are cheaper only if a step is
+// cheap.
 TEST(Collapse, makesLeavesWhereTheyCostNoMore) {
     const std::vector<Node> nodes = chain(4);
     const std::vector<uint32_t> primitives = identity(4);
@@ -84,11 +85,11 @@ TEST(Collapse, reachesTheCostItForetells) {
                         1e-9 * sahCost(bvh, costs));
             EXPECT_LE(sahCost(bvh, costs), sahCost(single, costs) * (1 + 1e-12));
         }
-    // The cheapest leaf of all is one for everything, when steps cost more than any number of tests.
+    // If a step costs more than any number of tests, one leaf for everything is cheapest.
     EXPECT_EQ(collapse({single.nodes, single.primitives}, {1e9f, 1}, kMaxLeafSize).nodes.size(), 2u);
 }
 
-// A triangle cut in two parts side by side: their leaf holds it once.
+// A triangle that was cut into two parts next to each other: their leaf holds it once.
 TEST(Collapse, joinsTheReferencesOfASplitTriangle) {
     std::vector<Node> nodes = chain(3);
     const std::vector<uint32_t> primitives{0, 1, 1};

@@ -9,7 +9,7 @@
 namespace bvhio {
 namespace {
 
-/// With random weights, no child's above its parent's.
+/// Returns a random tree with random weights. A child's weight is at most its parent's.
 std::vector<TreeItem> randomTree(uint32_t count, uint64_t seed) {
     Random random(seed);
     std::vector<TreeItem> items(count);
@@ -29,7 +29,7 @@ std::vector<uint32_t> parentsOf(const std::vector<TreeItem>& items) {
     return parents;
 }
 
-/// The sum of the weights of items that start parts, which `first` names; infinite where one is too large.
+/// Returns the sum of the weights of the items that start parts, by `first`; infinity if a part is too large.
 double costOf(const std::vector<TreeItem>& items, const std::vector<uint32_t>& first, uint32_t maxSize) {
     std::vector<uint32_t> sizes(items.size(), 0);
     double sum = 0;
@@ -40,7 +40,7 @@ double costOf(const std::vector<TreeItem>& items, const std::vector<uint32_t>& f
     return sum;
 }
 
-/// The least cost over all ways to cut the tree, for sets of items that `within` keeps apart.
+/// Returns the least cost over all ways to cut the tree, where `within` keeps sets of items apart.
 double leastCost(const std::vector<TreeItem>& items, uint32_t maxSize, const std::vector<uint32_t>& within) {
     const std::vector<uint32_t> parents = parentsOf(items);
     double least = std::numeric_limits<double>::infinity();

@@ -9,14 +9,15 @@ namespace {
 
 constexpr uint32_t kGlue = SlotMap::kGlue, kEmpty = SlotMap::kEmpty;
 
-/// Pair 0 is the root's, pairs 1 and 2 are below it, pair 3 below pair 1.
+/// Validates slots of a tree with four pairs: pair 0 has the root's children, pairs 1 and 2 are below it, and
+/// pair 3 is below pair 1.
 std::string faultOf(std::vector<uint32_t> words, uint32_t pointerBits = 2, uint32_t lineSlots = 2) {
     Bvh bvh = test::treeOfPairs({{0, 2}, {2, 4}, {3, 6}, {4, 8}});
     bvh.slots = {pointerBits, lineSlots, std::move(words)};
-    return faultOfSlots(bvh);
+    return validateSlots(bvh);
 }
 
-// Whoever stores a tree by its map relies on each of these.
+// Code that stores a tree by its map relies on each of these rules.
 TEST(SlotMap, isOfATreeWhoseRulesItKeeps) {
     EXPECT_EQ(faultOf({0, 1, 2, 3}), "");
     EXPECT_EQ(faultOf({0, 1, 2, kGlue | 3, 3}), "");

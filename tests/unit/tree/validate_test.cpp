@@ -29,7 +29,7 @@ Points line(uint32_t count) {
     return points;
 }
 
-/// A balanced tree with one point in each leaf, nodes in breadth-first order.
+/// Returns a balanced tree with one point in each leaf, and nodes in breadth-first order.
 Bvh tree(const Points& points) {
     AlignedVector<Node> nodes(2);
     nodes[1] = {};
@@ -50,7 +50,7 @@ Bvh tree(const Points& points) {
     return {std::move(nodes), std::move(primitives)};
 }
 
-/// The tree with one change to its nodes.
+/// Returns the tree with a change to its nodes.
 template <class Change>
 Bvh changed(const Bvh& bvh, const Change& change) {
     AlignedVector<Node> nodes(bvh.nodes.begin(), bvh.nodes.end());
@@ -73,7 +73,7 @@ TEST(Validate, findsNothingInAGoodTreeAndItsDepth) {
     }
 }
 
-// Far into the array, where another thread than the first looks.
+// The wrong field is far into the array, where another thread than the first checks it.
 TEST(Validate, findsOneWrongFieldAnywhere) {
     const uint32_t count = 40000;
     const Points points = line(count);
@@ -96,7 +96,7 @@ TEST(Validate, findsOneWrongFieldAnywhere) {
     expectOnly(FindingId::unusedSlot, [&](auto& n) { n[1].first = 1; });
 }
 
-// Two wrong pointers that keep every count right: one pair has two parents, one has none.
+// Two wrong pointers that leave every count right: one pair has two parents, and another one has none.
 TEST(Validate, findsSharedChildren) {
     const Points points = line(4);
     const Bvh bvh = changed(tree(points), [](auto& nodes) {

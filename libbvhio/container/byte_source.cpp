@@ -47,7 +47,7 @@ class MemorySource : public ByteSource {
     std::span<const std::byte> bytes_;
 };
 
-/// The mapping lives as long as any array that views it.
+/// A mapped file. The mapping lives as long as any array that views it.
 class MappedSource : public ByteSource {
   public:
     MappedSource(std::shared_ptr<const void> mapping, std::span<const std::byte> bytes,
@@ -76,7 +76,7 @@ class StreamSource : public ByteSource {
         AlignedVector<std::byte> bytes;
         size_t filled = 0;
         while (filled < count) {
-            // Memory doubles as bytes arrive, so a size that was only claimed costs nothing.
+            // Memory doubles as bytes arrive, so a false claim of a large size costs nothing.
             if (filled == bytes.size())
                 bytes.resize(
                     size_t(std::min<uint64_t>(count, std::max<size_t>(size_t(1) << 20, 2 * filled))));

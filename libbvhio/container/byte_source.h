@@ -1,4 +1,4 @@
-// Where the bytes of a file come from: a mapped file, a pipe, or memory. All are read once, front to back.
+// Sources of a file's bytes: a mapped file, a pipe, or memory. Each is read once, front to back.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@ using Bytes = SharedArray<std::byte>;
 class ByteSource {
   public:
     virtual ~ByteSource() = default;
-    /// The next `count` bytes, 64-byte aligned where the file offset is; fewer only when the source ends
-    /// first. Memory grows with the bytes that arrive, not with `count`. Throws Error{io}.
+    /// Returns the next `count` bytes, or fewer if the source ends first. They are 64-byte aligned if their
+    /// offset in the file is. Memory grows with the bytes that arrive, not with `count`. Throws Error{io}.
     Bytes take(uint64_t count) {
         Bytes bytes = takeNext(count);
         position_ += bytes.size();
@@ -35,12 +35,12 @@ class ByteSource {
     uint64_t position_ = 0;
 };
 
-/// Opens a path: a regular file is mapped and its bytes are used in place; anything else is read as a stream.
-/// "-" is standard input.
+/// Opens a path. A regular file is mapped, and its bytes are used in place; anything else is read as a
+/// stream. "-" is standard input.
 std::unique_ptr<ByteSource> openSource(const std::filesystem::path& path);
-/// Copies what is taken from `bytes`, which must live as long as the source.
+/// Reads from `bytes`, by copying. They must live as long as the source.
 std::unique_ptr<ByteSource> memorySource(std::span<const std::byte> bytes, const std::string& name);
-/// Reads a file descriptor, which stays open, as a stream.
+/// Reads a file descriptor as a stream, and leaves it open.
 std::unique_ptr<ByteSource> streamSource(int descriptor, const std::string& name);
 
 }  // namespace bvhio

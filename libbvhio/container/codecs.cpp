@@ -1,6 +1,6 @@
-// Zstandard (RFC 8878), as one independent frame for each block of 1 MiB: blocks are coded by several
-// threads, and the bytes are the same for any number of them. Arrays of numbers are taken apart first, where
-// that helps.
+// Zstandard (RFC 8878), with one independent frame for each block of 1 MiB. So several threads can code
+// blocks, and the bytes are the same for any number of threads. Arrays of numbers are first split into bytes
+// of equal significance, if that helps.
 
 #include "container/codecs.h"
 
@@ -31,7 +31,7 @@ bool decodeNone(std::span<const std::byte> stored, std::span<std::byte> raw) {
     return true;
 }
 
-/// The bytes of a frame before its blocks (RFC 8878, 3.1.1.1), of a frame without a dictionary.
+/// Returns the number of bytes before the blocks of a frame without a dictionary (RFC 8878, 3.1.1.1).
 size_t headerSize(std::span<const std::byte> frame) {
     const auto descriptor = uint32_t(frame[4]);
     const uint32_t singleSegment = descriptor >> 5 & 1, contentSizeFlag = descriptor >> 6;
@@ -51,8 +51,8 @@ std::vector<std::byte> compressed(std::span<const std::byte> raw, int level) {
     return frame;
 }
 
-/// A block as a frame. One that expands beyond what readers take begins with a raw block that is just large
-/// enough.
+/// Compresses a block of the payload into a frame. If the frame would expand more than readers accept, it
+/// begins with a raw block that is just large enough to prevent that.
 std::vector<std::byte> frameOf(std::span<const std::byte> block, int level) {
     std::vector<std::byte> frame = compressed(block, level);
     if (block.size() <= frame.size() * kMaxExpansion) return frame;
@@ -70,8 +70,8 @@ std::vector<std::byte> frameOf(std::span<const std::byte> block, int level) {
     return result;
 }
 
-/// Frames for all blocks of a payload, each of which `prepare(block, buffer)` may change first; nothing when
-/// they are no smaller.
+/// Compresses all blocks of a payload into frames. `prepare(block, buffer)` may change each block first.
+/// Returns nothing if the frames are not smaller than the payload.
 template <class Prepare>
 std::optional<AlignedVector<std::byte>> encodeBlocks(std::span<const std::byte> raw, int level,
                                                      const Prepare& prepare) {
@@ -91,14 +91,15 @@ std::optional<AlignedVector<std::byte>> encodeBlocks(std::span<const std::byte> 
     return stored;
 }
 
-/// Walking the frames' block headers finds where each one starts, and proves that each decodes to its block's
-/// size at most. Nothing when they are not what blocks of so many bytes need.
+/// Finds where each frame starts by walking the frames' block headers. This also proves that each frame
+/// decodes to at most its block's size. Returns nothing if the frames do not match a payload of `rawSize`
+/// bytes.
 std::optional<std::vector<std::span<const std::byte>>> framesOf(std::span<const std::byte> stored,
                                                                 size_t rawSize) {
     std::vector<std::span<const std::byte>> frames;
     const size_t blocks = (rawSize + kBlockSize - 1) / kBlockSize;
     for (size_t block = 0; block < blocks; ++block) {
-        // Only RFC 8878's own magic number: the library may know older formats as well.
+        // Accept only the magic number of RFC 8878: the library may also know older formats.
         if (stored.size() < sizeof kMagic || std::memcmp(stored.data(), &kMagic, sizeof kMagic) != 0)
             return std::nullopt;
         const size_t size = ZSTD_findFrameCompressedSize(stored.data(), stored.size());
@@ -131,9 +132,9 @@ bool decodeZstd(std::span<const std::byte> stored, std::span<std::byte> raw) {
     return good;
 }
 
-/// Of each number of a block the difference to the one `Stride` before it, signs folded into the lowest bit,
-/// and of those first all lowest bytes, then all second bytes, and so on: numbers that go along with their
-/// neighbours leave mostly zeros.
+/// Replaces each number of a block by its difference to the number `Stride` before it, with the sign folded
+/// into the lowest bit. Stores all lowest bytes of the differences first, then all second bytes, and so on.
+/// Numbers close to their neighbours leave mostly zeros.
 template <size_t Stride>
 std::optional<AlignedVector<std::byte>> encodeDifferences(std::span<const std::byte> raw, int level) {
     if (raw.size() % 4 != 0) return std::nullopt;

@@ -1,5 +1,5 @@
-// The container of format-spec/container.md: signature, header, checksummed chunks, END. It knows nothing of
-// BVHs.
+// The container of format-spec/container.md: a signature, a header, chunks with checksums, and END. It knows
+// nothing of BVHs.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace bvhio {
 /// The version of the format that this library writes, and the newest that it reads.
 inline constexpr uint16_t kFormatMajor = 1, kFormatMinor = 0;
 
-/// A chunk's type as the u32 of its four bytes, so `chunkType("NODE")`.
+/// Returns a chunk's type as the u32 of its four bytes, as in `chunkType("NODE")`.
 constexpr uint32_t chunkType(const char (&name)[5]) {
     uint32_t type = 0;
     for (int i = 0; i < 4; ++i) type |= uint32_t(static_cast<unsigned char>(name[i])) << (8 * i);
@@ -31,7 +31,7 @@ inline constexpr uint32_t kCritical = 1, kSurvivesReorder = 2, kSurvivesTopology
 
 inline constexpr uint32_t kEndType = chunkType("END ");
 inline constexpr uint32_t kProvenanceType =
-    chunkType("PROV");  // known here because the content hash leaves it out
+    chunkType("PROV");  // named here because the content hash leaves it out
 
 /// A chunk header as it stands in the file.
 struct ChunkHeader {
@@ -46,7 +46,7 @@ struct ChunkHeader {
     uint64_t payloadOffset() const { return offset + 64; }
 };
 
-/// The hash of a file's content, fed with each chunk in file order.
+/// Computes the hash of a file's content from its chunks, in file order.
 class ContentHash {
   public:
     void add(const ChunkHeader& header, uint64_t rawDigest);
@@ -56,21 +56,21 @@ class ContentHash {
     std::vector<uint64_t> records_;
 };
 
-/// Reads a container front to back. Everything that clauses R10xx say is checked; whatever is broken throws
-/// FindingError.
+/// Reads a container front to back. Checks all clauses R10xx, and throws FindingError at the first one that
+/// is broken.
 class ContainerReader {
   public:
     /// Reads the file's header.
     explicit ContainerReader(ByteSource& source);
 
-    /// The next chunk's header; nothing once END, the content hash and the end of the file were found right.
+    /// Returns the next chunk's header, or nothing after a valid END chunk, which ends the file.
     std::optional<ChunkHeader> nextHeader();
-    /// The payload of that chunk, decoded; a view into the file where it was mapped and stored with codec
-    /// none.
+    /// Returns the decoded payload of that chunk. It is a view into the file if the file is mapped and the
+    /// codec is none.
     Bytes payload();
-    /// Reads and checks whatever is left of the container.
+    /// Reads and checks the rest of the container.
     void drain();
-    /// Passes over the payload without decoding it, and says whether its checksum matched. END is then not
+    /// Skips the payload without decoding it, and returns whether its checksum matched. END is then not
     /// checked.
     bool skipPayload();
 
@@ -87,20 +87,20 @@ class ContainerReader {
     ChunkHeader header_;
     ContentHash hash_;
     uint64_t chunks_ = 0;
-    bool pending_ = false;  // a header was read, its payload not yet
+    bool pending_ = false;  // a header was read, but not its payload yet
     bool skipped_ = false;
 };
 
-/// Writes a container front to back to a stream that need not be seekable. Throws Error{io} when the stream
+/// Writes a container front to back. The stream need not be seekable. Throws Error{io} if the stream
 /// fails.
 class ContainerWriter {
   public:
-    /// Writes the file's header. `level` 0 is the codec's default.
+    /// Writes the file's header. `level` 0 means the codec's default level.
     ContainerWriter(std::ostream& out, const Codec& codec, int level);
 
     void write(uint32_t type, uint32_t flags, std::span<const std::byte> payload,
                Numbers numbers = Numbers::none);
-    /// Writes END and flushes; returns the content hash.
+    /// Writes END, flushes the stream, and returns the content hash.
     uint64_t finish();
 
   private:

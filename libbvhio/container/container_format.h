@@ -1,4 +1,4 @@
-// What reader and writer of the container share: the fixed bytes of format-spec/container.md.
+// The fixed bytes and sizes of format-spec/container.md, for the reader and the writer.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ inline constexpr size_t kCheckedSize = 56;  // the bytes of a header before its 
 inline constexpr size_t kEndSize = 32;      // END's payload
 inline constexpr uint64_t kMaxPayload = uint64_t(1) << 48;
 
-/// Bytes of padding after `size` bytes that started on a multiple of 64.
+/// Returns the bytes of padding after `size` bytes that start at a multiple of 64.
 constexpr size_t paddingAfter(uint64_t size) {
     return size_t((64 - size % 64) % 64);
 }

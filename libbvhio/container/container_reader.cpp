@@ -30,6 +30,8 @@ ContainerReader::ContainerReader(ByteSource& source) : source_(source) {
     const auto failHeader = [&](FindingId id, uint64_t offset, const std::string& message) {
         throw FindingError(name(), {id, kErrorSeverity, message, "", offset, kNowhere});
     };
+
+    // The signature, as far as the file has bytes.
     const Bytes bytes = source_.take(kHeaderSize);
     const size_t compared = std::min(bytes.size(), kSignature.size());
     const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -39,6 +41,7 @@ ContainerReader::ContainerReader(ByteSource& source) : source_(source) {
         failHeader(FindingId::cut, bytes.size(),
                    bytes.empty() ? "the input is empty" : "the file ends within its header: it was cut");
 
+    // The fields. The checksum comes first: the other checks would only report consequences of damage.
     ByteReader reader(bytes, "header");
     reader.bytes(kSignature.size());
     const unsigned major = reader.u16(), minor = reader.u16(), readerMajor = reader.u16(),
@@ -52,11 +55,11 @@ ContainerReader::ContainerReader(ByteSource& source) : source_(source) {
                        version(kFormatMajor, kFormatMinor) + ": use a newer bvhx");
     if (major == 0 || std::pair(readerMajor, readerMinor) > std::pair(major, minor))
         failHeader(FindingId::versionOrder, 12,
-                   "format version " + version(major, minor) + " asks for a reader of version " +
+                   "format version " + version(major, minor) + " cannot require a reader of version " +
                        version(readerMajor, readerMinor));
     if (std::pair<unsigned, unsigned>(kFormatMajor, kFormatMinor) < std::pair(readerMajor, readerMinor))
         failHeader(FindingId::newerReader, 16,
-                   "the file asks for a reader of version " + version(readerMajor, readerMinor) +
+                   "the file requires a reader of version " + version(readerMajor, readerMinor) +
                        ": use a newer bvhx");
     if (!zero) failHeader(FindingId::headerReserved, 20, "a reserved byte of the header is not zero");
 }
@@ -78,6 +81,7 @@ std::optional<ChunkHeader> ContainerReader::nextHeader() {
     if (bytes.size() < kHeaderSize)
         failHere(FindingId::cut, "the file ends within a chunk header: it was cut");
 
+    // The fields, and the checksum over them.
     ByteReader reader(bytes, "chunk header");
     ChunkHeader header;
     header.offset = offset;
@@ -96,6 +100,7 @@ std::optional<ChunkHeader> ContainerReader::nextHeader() {
     if (!std::all_of(type, type + 4, isTypeByte))
         failHere(FindingId::chunkType, "the chunk's type is not four letters, digits or spaces");
 
+    // From here on messages name the chunk.
     header_ = header;
     pending_ = true;
     if (!zero || header.flags > (kCritical | kSurvivesReorder | kSurvivesTopologyChange))
@@ -109,7 +114,7 @@ std::optional<ChunkHeader> ContainerReader::nextHeader() {
                                 header.storedSize >= (header.rawSize + kMaxExpansion - 1) / kMaxExpansion;
     if (!sane || header.storedSize > kMaxPayload)
         fail(FindingId::chunkSizes, "stored size " + std::to_string(header.storedSize) + " and raw size " +
-                                        std::to_string(header.rawSize) + " do not go together with codec " +
+                                        std::to_string(header.rawSize) + " are not possible with codec " +
                                         std::string(codec->name));
     return header_;
 }
@@ -157,14 +162,14 @@ Bytes ContainerReader::payload() {
 
 void ContainerReader::checkEnd(const Bytes& payload) {
     if (header_.flags != kCritical || header_.codec != 0 || header_.rawSize != kEndSize)
-        fail(FindingId::endForm, "the END chunk has other flags, another codec or another size than it must");
+        fail(FindingId::endForm, "the END chunk has the wrong flags, codec or size");
     ByteReader reader(payload, "chunk END");
     const uint64_t hash = reader.u64(), chunks = reader.u64(), fileSize = reader.u64();
     if (!reader.skipZeros(8)) fail(FindingId::endForm, "END's reserved field is not zero");
     if (skipped_) return;
     if (chunks != chunks_ || fileSize != source_.position())
         fail(FindingId::endTotals, "END counts " + std::to_string(chunks) + " chunks and " +
-                                       std::to_string(fileSize) + " bytes, the file has " +
+                                       std::to_string(fileSize) + " bytes, but the file has " +
                                        std::to_string(chunks_) + " and " +
                                        std::to_string(source_.position()));
     if (hash != hash_.value()) fail(FindingId::contentHash, "the content hash does not match");

@@ -37,7 +37,7 @@ ContainerWriter::ContainerWriter(std::ostream& out, const Codec& codec, int leve
     for (const unsigned char c : kSignature) header.string({reinterpret_cast<const char*>(&c), 1});
     header.u16(kFormatMajor);
     header.u16(kFormatMinor);
-    header.u16(kFormatMajor);  // the smallest reader: nothing here is newer than 1.0
+    header.u16(kFormatMajor);  // the oldest reader that can read the file: nothing here is newer than 1.0
     header.u16(0);
     header.zeros(kCheckedSize - header.bytes().size());
     header.u64(hash64(header.bytes()));
@@ -77,7 +77,7 @@ uint64_t ContainerWriter::finish() {
     ByteWriter end;
     end.u64(hash);
     end.u64(chunks_);
-    end.u64(written_ + 2 * kHeaderSize);  // END's header and its padded payload
+    end.u64(written_ + 2 * kHeaderSize);  // with END's header and its padded payload
     end.zeros(8);
     writeChunk(kEndType, kCritical, end.bytes(), std::nullopt);
     out_.flush();

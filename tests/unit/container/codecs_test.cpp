@@ -10,7 +10,7 @@
 namespace bvhio {
 namespace {
 
-/// Numbers of several kinds: ids that go up, with jumps, the extremes, and noise.
+/// Returns numbers of several kinds: ascending ids, ids with jumps, the extremes, and noise.
 std::vector<uint32_t> awkwardNumbers(size_t count) {
     Random random(5);
     std::vector<uint32_t> numbers(count);
@@ -44,7 +44,7 @@ TEST(Codecs, numbersComeBackFromEachCodec) {
         }
 }
 
-// Frames that would be too small begin with a raw block: all the same, and across frames.
+// Frames that would expand too much begin with a raw block: for equal bytes, in one frame and in several.
 TEST(Codecs, zerosExpandNoMoreThanReadersTake) {
     for (const uint32_t id : {1u, 2u, 3u})
         for (const size_t size : {size_t(1200), size_t(100000), kBlockSize, 3 * kBlockSize + 40}) {
@@ -78,7 +78,7 @@ TEST(Codecs, differencesAreTakenWhereTheyHelp) {
     EXPECT_EQ(codecOf(ids, Numbers::single), 2u);
     EXPECT_EQ(codecOf(triples, Numbers::triples), 3u);
     EXPECT_EQ(codecOf(ids, Numbers::none), 1u);
-    std::vector<uint32_t> repeated(5000);  // noise that comes again: matches beat differences
+    std::vector<uint32_t> repeated(5000);  // noise that repeats: matches beat differences
     for (size_t i = 0; i < repeated.size(); ++i)
         repeated[i] = i < 500 ? random.below(0xFFFFFFFFu) : repeated[i - 1 - random.below(499)];
     EXPECT_EQ(codecOf(repeated, Numbers::single), 1u);

@@ -66,7 +66,7 @@ Aabb placedBox(const Affine& m, const Aabb& box) {
     const std::array<double, 3> magnitudes = placedMagnitude(m, box);
     Aabb result;
     for (int row = 0; row < 3; ++row) {
-        // The corner where each term is least: sums are monotone, so it is the least of the eight.
+        // At one corner each term is least. Sums are monotone, so the sum is the least of the eight there.
         double low = 0, high = 0;
         for (int axis = 0; axis < 3; ++axis) {
             const double scale = m[size_t(4 * row + axis)];

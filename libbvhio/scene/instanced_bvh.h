@@ -1,4 +1,4 @@
-// The canonical tree of an instanced scene: one over its instances, and one over each of its meshes.
+// The canonical trees of an instanced scene: one over its instances, and one over each of its meshes.
 #pragma once
 
 #include <functional>
@@ -10,18 +10,18 @@
 namespace bvhio {
 
 struct InstancedBvh {
-    Bvh top;                  // its primitives are instances, and its leaves have one each
-    std::vector<Bvh> meshes;  // primitives count from the mesh's first triangle
+    Bvh top;                  // its primitives are instances, and each leaf has one
+    std::vector<Bvh> meshes;  // primitives are numbered from the mesh's first triangle
 };
 
-/// A mesh as a plain scene of its own, in its own space; it shares the scene's vertices.
+/// Returns a mesh as a plain scene, in the mesh's own space. It shares the scene's vertices.
 Scene sceneOfMesh(const Scene& scene, const SceneMesh& mesh);
 
-/// A plain scene that has a triangle for each instance, whose box is the instance's in the world: for what
-/// builds and changes trees.
+/// Returns a plain scene with a triangle for each instance, whose bounds are the instance's box in the world.
+/// It lets builders, restructurers and layouts work on trees of instances.
 Scene sceneOfInstances(const Scene& scene);
 
-/// Applies a function to each tree and the scene that it is over: `function(scene, tree, isTop)`.
+/// Applies `function(scene, tree, isTop)` to each tree and its scene, and returns the resulting trees.
 InstancedBvh mapTrees(const Scene& scene, const InstancedBvh& bvh,
                       const std::function<Bvh(const Scene&, const Bvh&, bool isTop)>& function);
 

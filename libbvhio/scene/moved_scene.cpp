@@ -6,11 +6,11 @@ namespace bvhio {
 namespace {
 
 Error notTheSame(const std::string& what) {
-    return {ErrorKind::invalid, what + ": a refit needs the same triangles, joined alike"};
+    return {ErrorKind::invalid, what + ": a refit needs the same triangles, which share the same vertices"};
 }
 
 std::string counts(uint64_t moved, uint64_t old, const std::string& of) {
-    return std::to_string(moved) + " " + of + " where the tree has " + std::to_string(old);
+    return std::to_string(moved) + " " + of + ", but the tree has " + std::to_string(old);
 }
 
 std::string nameOf(const Scene& scene, uint32_t triangle) {
@@ -18,7 +18,7 @@ std::string nameOf(const Scene& scene, uint32_t triangle) {
     return "triangle " + std::to_string(id.primitive) + " of geometry " + std::to_string(id.geometry);
 }
 
-/// The number in `moved` of each triangle of `old`.
+/// Returns the number in `moved` of each triangle of `old`.
 std::vector<uint32_t> matchTriangles(const Scene& old, const Scene& moved) {
     if (moved.geometries.size() != old.geometries.size())
         throw notTheSame(counts(moved.geometries.size(), old.geometries.size(), "geometries"));
@@ -33,14 +33,14 @@ std::vector<uint32_t> matchTriangles(const Scene& old, const Scene& moved) {
                 old.sourcePrimitives.empty() ? i - from.firstTriangle : old.sourcePrimitives[i];
             if (number >= to.triangleCount)
                 throw notTheSame(where + std::to_string(to.triangleCount) +
-                                 " triangles, and the tree has its triangle " + std::to_string(number));
+                                 " triangles, but the tree refers to triangle " + std::to_string(number));
             numbers[i] = to.firstTriangle + number;
         }
     }
     return numbers;
 }
 
-/// Whether one and the same vertex of `moved` stands for each vertex of `old`, and no two share one.
+/// Checks that each vertex of `old` has one counterpart in `moved`, and no two vertices have the same one.
 class Renumbering {
   public:
     Renumbering(size_t oldCount, size_t movedCount) : movedOf_(oldCount, kNone), oldOf_(movedCount, kNone) {}
@@ -65,7 +65,7 @@ Scene movedScene(const Scene& old, const Scene& moved) {
     for (uint32_t i = 0; i < triangles.size(); ++i) {
         const TriangleIndices &a = old.triangles[i], &b = moved.triangles[numbers[i]];
         if (!vertices.agrees(a.v0, b.v0) || !vertices.agrees(a.v1, b.v1) || !vertices.agrees(a.v2, b.v2))
-            throw notTheSame(nameOf(old, i) + " is joined to others than in the tree");
+            throw notTheSame(nameOf(old, i) + " shares vertices with other triangles than in the tree");
         triangles[i] = b;
     }
     std::vector<Geometry> geometries = old.geometries;

@@ -1,15 +1,15 @@
-// The same mesh in another pose.
+// Finds a scene's triangles in another pose of the same mesh, for refits.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace bvhio {
 
-/// The triangles of `old`, in its order, with the vertices that they have in `moved`: a scene of the same
-/// geometries, whose triangles are joined alike and may lie elsewhere. Vertices may be numbered otherwise.
-/// Triangles that `old` dropped, or has in another order, are known by their source numbers; `moved` must
-/// have all of its source's. Throws Error{invalid} that names the first difference when the scenes are not
-/// the same mesh.
+/// Returns the triangles of `old`, in its order, with the vertices that they have in `moved`. Both scenes
+/// must have the same geometries, and their triangles must share vertices in the same way; numbers and
+/// positions of vertices may differ. If `old` dropped or reordered triangles, they are found by their source
+/// numbers, so `moved` must have all triangles of its source. Throws Error{invalid} that names the first
+/// difference if the scenes are not the same mesh.
 Scene movedScene(const Scene& old, const Scene& moved);
 
 }  // namespace bvhio

@@ -48,8 +48,8 @@ Scene::PrimitiveId Scene::primitiveId(uint32_t primitive) const {
         triangle = mesh.firstTriangle + primitive - placed.firstPrimitive;
         firstGeometry = placed.firstGeometry - mesh.firstGeometry;
     }
-    // The last geometry that starts at or before the triangle; empty geometries share a start, and the last
-    // of them owns it.
+    // The last geometry that starts at or before the triangle. Empty geometries have the same start as the
+    // next one, which owns the triangle.
     const auto after = std::upper_bound(geometries.begin(), geometries.end(), triangle,
                                         [](uint32_t t, const Geometry& g) { return t < g.firstTriangle; });
     const auto geometry = uint32_t(after - geometries.begin()) - 1;

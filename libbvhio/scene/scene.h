@@ -1,4 +1,4 @@
-// A scene as the BVH sees it: triangles with stable ids.
+// A scene as a BVH sees it: triangles with stable ids.
 #pragma once
 
 #include <string>
@@ -17,9 +17,9 @@ struct TriangleIndices {
 };
 static_assert(sizeof(TriangleIndices) == 12);
 
-/// A run of triangles that came from one mesh primitive of one glTF node, in scene order, or the one of an
-/// OBJ, PLY, STL or DRC file. Points and lines make a geometry without triangles, so that numbers match the
-/// source's.
+/// A run of triangles that came from one mesh primitive of one glTF node, in scene order, or the only one of
+/// an OBJ, PLY, STL or DRC file. Points and lines give a geometry without triangles, so that geometries have
+/// the same numbers as in the source.
 struct Geometry {
     std::string name;
     uint32_t firstTriangle = 0;
@@ -27,16 +27,16 @@ struct Geometry {
     bool operator==(const Geometry&) const = default;
 };
 
-/// A run of geometries that instances place together; it has at least one triangle.
+/// A run of geometries that instances place together. It has at least one triangle.
 struct SceneMesh {
     uint32_t firstGeometry = 0, geometryCount = 0;
     uint32_t firstTriangle = 0, triangleCount = 0;
     bool operator==(const SceneMesh&) const = default;
 };
 
-/// A mesh where it stands. `firstPrimitive` and `firstGeometry` are the numbers that its first triangle and
-/// its first geometry have in hits: those of the same scene with every instance's triangles copied to their
-/// place.
+/// A mesh that is placed in the world. `firstPrimitive` and `firstGeometry` are the numbers of its first
+/// triangle and its first geometry in hits. Hits number them as if the triangles of every instance were
+/// copied to their places.
 struct SceneInstance {
     Affine objectToWorld = kIdentityAffine;
     uint32_t mesh = 0;
@@ -44,21 +44,21 @@ struct SceneInstance {
     bool operator==(const SceneInstance&) const = default;
 };
 
-/// Indexed triangles. Every coordinate is finite and never -0 (importers turn it into +0, so that minima and
-/// maxima do not depend on the order they are taken in); every index is in range; there is at least one
-/// triangle, and fewer than 2^31. Geometries are in order and their runs cover `triangles` exactly.
+/// Indexed triangles. Every coordinate is finite and never -0 (importers turn -0 into +0, so that minima and
+/// maxima do not depend on the order of their operands). Every index is in range. There is at least one
+/// triangle, and fewer than 2^31. Geometries are in order, and their runs cover `triangles` exactly.
 ///
-/// In a plain scene, one without instances, they stand in the world as they are. In an instanced scene they
-/// are in the spaces of their meshes, whose runs are in order and cover `geometries` and `triangles` exactly;
-/// each instance has a transform that can be inverted, and all of them together have fewer than 2^31
-/// triangles. A triangle of an instance is a *primitive*, numbered through all instances; in a plain scene
-/// primitives are the triangles.
+/// In a plain scene, which has no instances, triangles are in the world's space. In an instanced scene they
+/// are in the spaces of their meshes, whose runs are in order and cover `geometries` and `triangles` exactly.
+/// Each instance has an invertible transform, and all instances together have fewer than 2^31 triangles. A
+/// triangle of an instance is a *primitive*; primitives are numbered through all instances. In a plain scene
+/// the primitives are the triangles.
 struct Scene {
     SharedArray<Vec3> vertices;
     SharedArray<TriangleIndices> triangles;
     std::vector<Geometry> geometries;
-    /// The triangle's number within its geometry in the source, where triangles were dropped; empty when none
-    /// were.
+    /// For each triangle, its number within its geometry in the source. Empty if no triangles were dropped or
+    /// reordered.
     SharedArray<uint32_t> sourcePrimitives;
     std::vector<SceneMesh> meshes = {};
     std::vector<SceneInstance> instances = {};
@@ -70,16 +70,16 @@ struct Scene {
     }
     Aabb boundsOf(const SceneMesh& mesh) const;
 
-    /// Primitives: what hits number, and what they call the last one + 1.
+    /// Returns the number of primitives: the last number of a primitive in hits, plus 1.
     uint32_t primitiveCount() const;
-    /// Geometries as hits number them.
+    /// Returns the number of geometries as hits number them: those of every instance.
     uint32_t placedGeometryCount() const;
-    /// The number of the instance that has the primitive; of an instanced scene.
+    /// Returns the number of the instance that has the primitive. For instanced scenes only.
     uint32_t instanceOf(uint32_t primitive) const;
-    /// The primitive's triangle where it stands in the world, vertices rounded to float.
+    /// Returns the primitive's triangle in the world, with vertices rounded to float.
     Triangle placedTriangle(uint32_t primitive) const;
-    /// What hit files and reports call a primitive: which geometry, which triangle of it in source order, and
-    /// which instance (0 in a plain scene).
+    /// How hit files and reports name a primitive: its geometry, its number there in source order, and its
+    /// instance (0 in a plain scene).
     struct PrimitiveId {
         uint32_t geometry, primitive, instance;
     };
@@ -88,8 +88,8 @@ struct Scene {
 
 inline constexpr uint64_t kMaxPrimitives = (uint64_t(1) << 31) - 1;
 
-/// Numbers meshes' runs from their geometry counts and instances' primitives from their meshes, in order.
-/// Throws Error{unsupported} when the instances have 2^31 triangles or more in all.
+/// Sets the runs of meshes from their geometry counts, and the first primitives of instances from their
+/// meshes, in order. Throws Error{unsupported} if the instances have 2^31 or more triangles in all.
 void numberInstances(Scene& scene);
 
 }  // namespace bvhio

@@ -3,7 +3,7 @@
 namespace bvhio {
 
 Scene withVerticesByUse(const Scene& scene) {
-    constexpr uint32_t kUnnamed = ~0u;  // no vertex: there are fewer than 2^32
+    constexpr uint32_t kUnnamed = ~0u;  // not the index of a vertex: there are fewer than 2^32
     std::vector<uint32_t> newIndex(scene.vertices.size(), kUnnamed);
     AlignedVector<Vec3> vertices;
     vertices.reserve(scene.vertices.size());
@@ -30,7 +30,7 @@ Scene withVerticesByUse(const Scene& scene) {
 
 ReorderedScene withTrianglesInOrder(const Scene& scene, std::span<const uint32_t> entries) {
     constexpr uint32_t kUnnamed = ~0u;
-    std::vector<uint32_t> geometryOf(scene.triangles.size()), next;  // next: free place of each geometry
+    std::vector<uint32_t> geometryOf(scene.triangles.size()), next;  // next: the free place of each geometry
     for (uint32_t g = 0; g < scene.geometries.size(); ++g) {
         const Geometry& geometry = scene.geometries[g];
         next.push_back(geometry.firstTriangle);

@@ -1,5 +1,5 @@
-// Other orders of a scene's triangles and vertices, for files: coders of geometry ask that neighbours stand
-// beside each other.
+// Reorders a scene's triangles and vertices for files, because coders of geometry need neighbours to be next
+// to each other.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace bvhio {
 
-/// The same triangles over vertices in the order in which triangles name them first; behind them those that
-/// none names.
+/// Returns the same triangles over vertices in the order of first use by triangles. Unused vertices come
+/// last.
 Scene withVerticesByUse(const Scene& scene);
 
 struct ReorderedScene {
@@ -17,8 +17,8 @@ struct ReorderedScene {
     std::vector<uint32_t> newIndex;  // of each triangle, by its old one
 };
 
-/// Each geometry's triangles in the order in which `entries`, such as a tree's leaf order, names them first:
-/// each at least once. They keep their ids, by sourcePrimitives.
+/// Returns the scene with each geometry's triangles in the order of their first use in `entries`, such as a
+/// tree's leaf order, which must contain each triangle. They keep their ids, by sourcePrimitives.
 ReorderedScene withTrianglesInOrder(const Scene& scene, std::span<const uint32_t> entries);
 
 }  // namespace bvhio

@@ -29,7 +29,7 @@ TEST(Instance, refusesTransformsThatCannotBeUndone) {
     EXPECT_FALSE(inverse({1, 2, 3, 0, 2, 4, 6, 0, 0, 0, 1, 0}));  // two parallel rows
     EXPECT_FALSE(inverse({kUnlimited, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}));
     EXPECT_FALSE(inverse({1, 0, 0, NAN, 0, 1, 0, 0, 0, 0, 1, 0}));
-    // Of the smallest and the largest floats too: nothing under- or overflows.
+    // The smallest and the largest floats, too: nothing may underflow or overflow.
     for (const float scale : {std::numeric_limits<float>::denorm_min(), std::numeric_limits<float>::max()}) {
         const auto back = inverse({scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0});
         ASSERT_TRUE(back);
@@ -48,7 +48,8 @@ TEST(Instance, objectRayLeadsThroughTheImagesOfItsPoints) {
         EXPECT_EQ(local.tMin, 0.5f);
         EXPECT_EQ(local.tMax, 7);
         const Vec3 again = place(affine, local.origin + local.direction * 2);
-        // Rounding in the mesh's space is magnified on its way back by what the rows of |A| |p'| sum to.
+        // The way back to the world magnifies rounding in the mesh's space by the sums of the rows of |A|
+        // |p'|.
         const float size = 12 * (length(local.origin) + 2 * length(local.direction)) + 20;
         EXPECT_LT(length(again - (ray.origin + ray.direction * 2)), size * 0x1p-21f) << i;
     }

@@ -36,7 +36,7 @@ TEST(MovedScene, hasTheNewVerticesAndNames) {
     EXPECT_TRUE(std::equal(scene.triangles.begin(), scene.triangles.end(), moved.triangles.begin()));
 }
 
-// An exporter may number vertices anew: their places tell nothing of a mesh.
+// An exporter may renumber vertices, so their numbers do not identify a mesh.
 TEST(MovedScene, knowsVerticesByTheTrianglesThatTheyJoin) {
     Scene moved = twoGeometries(0);
     moved.vertices = std::vector<Vec3>{{2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0}};
@@ -64,11 +64,11 @@ TEST(MovedScene, refusesAnotherMesh) {
     const Scene old = twoGeometries(0);
     Scene other = old;
     other.geometries = {{"square", 0, 3}};
-    EXPECT_NE(refusal(old, other).find("1 geometries where the tree has 2"), std::string::npos);
+    EXPECT_NE(refusal(old, other).find("1 geometries, but the tree has 2"), std::string::npos);
 
     other = old;
     other.geometries = {{"square", 0, 1}, {"wing", 1, 2}};
-    EXPECT_NE(refusal(old, other).find("geometry 0 has 1 triangles where the tree has 2"), std::string::npos);
+    EXPECT_NE(refusal(old, other).find("geometry 0 has 1 triangles, but the tree has 2"), std::string::npos);
 
     other = old;  // a corner elsewhere: two vertices of `old` would be one
     other.triangles = std::vector<TriangleIndices>{{0, 1, 2}, {0, 2, 1}, {1, 4, 2}};

@@ -26,7 +26,7 @@ TEST(SceneOrder, verticesByUseAreTheSameTriangles) {
         EXPECT_TRUE(sameBits(byUse.triangle(i), scene.triangle(i))) << i;
         const TriangleIndices& t = byUse.triangles[i];
         for (const uint32_t vertex : {t.v0, t.v1, t.v2}) {
-            EXPECT_LE(vertex, highest) << i;  // a new one is the next one
+            EXPECT_LE(vertex, highest) << i;  // a vertex's first use takes the next number
             highest = std::max(highest, vertex + 1);
         }
     }
@@ -60,7 +60,7 @@ TEST(SceneOrder, trianglesKeepTheirIdsAndGeometriesTheirRuns) {
             EXPECT_EQ(after.primitive, before.primitive) << i;
         }
         EXPECT_EQ(places.size(), 50u);
-        // Within a geometry, triangles follow each other as the entries name them first.
+        // Within a geometry, triangles are in the order of first use by the entries.
         std::vector<uint32_t> last(scene.geometries.size());
         std::set<uint32_t> named;
         for (const uint32_t entry : entries) {

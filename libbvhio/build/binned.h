@@ -8,13 +8,13 @@ namespace bvhio {
 
 inline constexpr uint32_t kMaxBins = 256;
 
-/// Throws Error{usage} when options.bins is 1 or above kMaxBins.
+/// Throws Error{usage} if options.bins is 1 or above kMaxBins.
 void checkBins(const BuildOptions& options);
 
-/// Throws as checkBins does.
+/// Builds a tree over the scene's triangles. Throws as checkBins does.
 Bvh buildBinned(const Scene& scene, const BuildOptions& options);
 
-/// The tree over any boxes, with one in each leaf; its primitives are the references'.
+/// Builds a tree over any boxes, with one box in each leaf. Its primitives are those of the references.
 Bvh buildBinnedOver(Buffer<Reference> references, const Box& bounds, const SahCosts& costs);
 
 }  // namespace bvhio

@@ -1,5 +1,5 @@
-// Bins along the three axes: what falls into each, and the best plane between them. Included once for each
-// SIMD target.
+// Bins along the three axes, their contents, and the best plane between them. Included once for each SIMD
+// target.
 #if defined(BVHIO_BUILD_BINS_SIMD_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_BUILD_BINS_SIMD_H
 #undef BVHIO_BUILD_BINS_SIMD_H
@@ -19,28 +19,29 @@ namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
-constexpr uint32_t kTwoSets = 512;  // references from which two sets of bins pay
+constexpr uint32_t kTwoSets = 512;  // from this many references on, two sets of bins are faster
 
 /// Maps doubled centroids to bins: bin = round((centroid - origin) * scale - 0.5), by the same operations
-/// wherever it is computed. Adding 2^23 - 0.5 leaves the bin in the low bits of the float.
+/// everywhere. Adding 2^23 - 0.5 leaves the bin in the low bits of the float.
 struct Grid {
     alignas(16) float origin[4];
     alignas(16) float scale[4];
     uint32_t bins;  // per axis
     static constexpr float kRound = 8388607.5f, kZero = 8388608.0f;
 
-    /// Divides `span`, which contains all doubled centroids; an axis on which it is flat has all in bin 0.
+    /// Divides `span` times `factor`, which contains all doubled centroids. If it is flat on an axis, all are
+    /// in bin 0.
     Grid(const Box& span, float factor, uint32_t binCount) : bins(binCount) {
         for (int axis = 0; axis < 4; ++axis) {
             const float extent = axis < 3 ? span.extent(axis) * factor : 0;
             origin[axis] = axis < 3 ? 0 - span.negatedMin[axis] * factor : 0;
-            // A little less than all bins, so that rounding cannot reach the one after the last.
+            // Slightly less than all bins, so that rounding cannot reach the bin after the last.
             scale[axis] = extent > 0x1p-100f ? float(binCount) * 0.9999f / extent : 0;
         }
     }
 };
 
-/// What falls into each bin, axis by axis: the boxes' union, in Box's order, and how many they are.
+/// The contents of each bin, axis by axis: the union of the boxes, in Box's order, and their number.
 struct Bins {
     alignas(64) float boxes[3 * kMaxBins][8];
     uint32_t counts[3 * kMaxBins];
@@ -70,8 +71,8 @@ HWY_INLINE const float* floats(const Reference* reference) {
     return reinterpret_cast<const float*>(reference);
 }
 
-/// Adds references to bins. Neighbours in a mesh share bins, and each addition waits for the one before it on
-/// the same bin: so odd references may go to a second set.
+/// Adds references to bins. Neighbours in a mesh share bins, and each addition to a bin waits for the one
+/// before. So odd references may go to a second set of bins.
 void fillBins(const Reference* references, uint32_t count, const Grid& grid, Bins& even, Bins& odd) {
     const Four d;
     const FourU du;
@@ -107,7 +108,7 @@ void fillBins(const Reference* references, uint32_t count, const Grid& grid, Bin
     bins.merge(odd);
 }
 
-/// Half areas of four boxes given by their extents, lane by lane. An empty box has infinite extents and area.
+/// Returns the half areas of four boxes, lane by lane, from their extents. An empty box has an infinite area.
 HWY_INLINE FourV halfAreas(const float (*extents)[4]) {
     const Four d;
     FourV x, y, z, unused;
@@ -115,8 +116,8 @@ HWY_INLINE FourV halfAreas(const float (*extents)[4]) {
     return hn::Add(hn::Add(hn::Mul(x, y), hn::Mul(y, z)), hn::Mul(z, x));
 }
 
-/// The plane of least SAH over the axes, the first of equals; axis < 0 when all references are in one bin of
-/// each axis.
+/// Returns the plane of least SAH cost over all axes; of equals, the first. Its axis is < 0 if all references
+/// are in one bin of each axis.
 Split bestSplit(const Bins& bins, uint32_t count) {
     const Four d;
     alignas(16) float lefts[kMaxBins + 3][4],
@@ -137,13 +138,13 @@ Split bestSplit(const Bins& bins, uint32_t count) {
             leftCount += counts[i];
             leftCounts[i] = float(leftCount);
         }
-        for (uint32_t i = planes; i % 4 != 0;
-             ++i) {  // fills the last group with planes that no comparison prefers
+        for (uint32_t i = planes; i % 4 != 0; ++i) {  // fill the last group with planes that are never better
             hn::Store(hn::Set(d, kInfinity), d, lefts[i]);
             hn::Store(hn::Set(d, kInfinity), d, rights[i]);
             leftCounts[i] = 0;
         }
-        // An empty side's cost is infinity times zero: not a number, so less than nothing.
+        // The cost of an empty side is infinity times zero: not a number, and so never less than another
+        // cost.
         FourV bestCosts = hn::Set(d, kInfinity), bestPlanes = hn::Zero(d), plane = hn::Iota(d, 0);
         for (uint32_t i = 0; i < planes; i += 4) {
             const FourV leftCounts4 = hn::Load(d, leftCounts + i);

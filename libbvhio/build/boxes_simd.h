@@ -1,4 +1,4 @@
-// Boxes in registers, and those of triangles. Included once for each SIMD target.
+// Boxes in SIMD registers, and the boxes of triangles. Included once for each SIMD target.
 #if defined(BVHIO_BUILD_BOXES_SIMD_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_BUILD_BOXES_SIMD_H
 #undef BVHIO_BUILD_BOXES_SIMD_H
@@ -75,14 +75,14 @@ struct BoxV {
 };
 #endif
 
-/// A mask for the first three lanes. The fourth of a reference holds an integer, a denormal as a float: slow
-/// to compute with.
+/// Returns a mask for the first three lanes. The fourth lane of a reference holds an integer, which as a
+/// float is denormal and slow to compute with.
 HWY_INLINE FourV firstThree() {
     alignas(16) static constexpr uint32_t kThree[4] = {~0u, ~0u, ~0u, 0};
     return hn::BitCast(Four(), hn::Load(FourU(), kThree));
 }
 
-/// A vertex, the next one's x in the fourth lane; the array's last vertex has no next.
+/// Loads a vertex. The fourth lane gets the x of the next vertex, or 0 after the array's last vertex.
 HWY_INLINE FourV loadVertex(const Vec3* vertices, uint32_t last, uint32_t index) {
     const Four d;
     const Vec3& v = vertices[index];
@@ -91,7 +91,7 @@ HWY_INLINE FourV loadVertex(const Vec3* vertices, uint32_t last, uint32_t index)
     return hn::Load(d, lanes);
 }
 
-/// The boxes of a scene's triangles, scaled; the unused lanes are zero.
+/// Computes the scaled boxes of a scene's triangles. Unused lanes are zero.
 class TriangleBoxes {
   public:
     TriangleBoxes(const Scene& scene, float scale)
@@ -109,7 +109,7 @@ class TriangleBoxes {
         return BoxV::of(hn::And(low, three), hn::And(high, three));
     }
 
-    /// Asks for what the box of `t` will need.
+    /// Prefetches the vertices of `t`.
     HWY_INLINE void prefetch(const TriangleIndices& t) const {
         for (const uint32_t index : {t.v0, t.v1, t.v2}) hwy::Prefetch(&vertices_[index]);
     }

@@ -19,13 +19,13 @@ std::span<const Builder> builders() {
          "SAH that may cut triangles between nodes: better trees, more references",
          {buildSpatial, kUsesBins | kUsesSplitBudget}},
         {"lbvh",
-         "order along the Morton curve: built several times faster, worse trees",
+         "order along the Morton curve: several times faster to build, worse trees",
          {buildLbvh, kUsesNothing}},
         {"ploc",
-         "joins near clusters of triangles from the leaves up: often better than binned",
+         "clustering of near triangles from the leaves up: often better than binned",
          {buildPloc, kUsesNothing}},
         {"median",
-         "object median along the longest axis; no SAH, the plainest tree",
+         "object median along the longest axis: the simplest tree, without SAH",
          {buildMedian, kUsesNothing}},
     };
     return kTable;

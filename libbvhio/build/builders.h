@@ -1,4 +1,4 @@
-// The table of builders: from triangles to a canonical BVH.
+// The table of builders, which make a canonical BVH from triangles.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace bvhio {
 
-/// The options that not every builder has a use for.
+/// The options that only some builders use.
 enum BuildUses : uint32_t {
     kUsesBins = 1,
     kUsesSplitBudget = 2,
@@ -19,17 +19,17 @@ enum BuildUses : uint32_t {
 
 struct BuildOptions {
     SahCosts costs;
-    uint32_t bins = 0;  // per axis, for binned builders; 0 = the builder's own default
+    uint32_t bins = 0;  // per axis, for binned builders; 0 = the builder's default
     uint32_t maxLeafSize = 4;
-    float splitBudget = 0.3f;      // for builders that split triangles: most extra references, per triangle
-    Progress* progress = nullptr;  // where to count the triangles that are in place, for who watches
+    float splitBudget = 0.3f;      // for builders that split triangles: most extra references per triangle
+    Progress* progress = nullptr;  // counts the triangles that are in their leaves
 };
 
-/// A builder returns a tree that keeps every invariant of Bvh, whose bytes depend on the scene and the
-/// options alone: not on the number of threads, the compiler or the processor.
+/// A builder returns a tree that keeps every invariant of Bvh. The tree's bytes depend only on the scene and
+/// the options, and not on the number of threads, the compiler or the processor.
 using Builder = Choice<Method<Bvh(const Scene&, const BuildOptions&)>>;
 
-/// All builders, the default first.
+/// Returns all builders, the default first.
 std::span<const Builder> builders();
 
 }  // namespace bvhio

@@ -6,9 +6,10 @@
 
 namespace bvhio {
 
-/// A tree over each mesh's triangles, and one over the boxes of the instances with one of them in each leaf,
-/// all by the same builder; but where that cuts triangles, the top is by buildBinned, since instances cannot
-/// be cut. Options are for meshes' trees; progress counts their triangles.
+/// Builds a tree over the triangles of each mesh, and a tree over the boxes of the instances, with one
+/// instance in each leaf. All trees are by the same builder, except that buildBinned replaces a builder that
+/// cuts triangles for the top tree, since instances cannot be cut. The options are for the trees of meshes,
+/// and progress counts their triangles.
 InstancedBvh buildInstanced(const Scene& scene, const Builder& builder, const BuildOptions& options);
 
 }  // namespace bvhio

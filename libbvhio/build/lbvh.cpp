@@ -1,12 +1,14 @@
-// LBVH (Lauterbach et al. 2009, "Fast BVH construction on GPUs"): triangles in Morton order, and each node is
-// split where the highest bit of the codes changes, as in the binary radix tree of Karras 2012 ("Maximizing
-// parallelism in the construction of BVHs, octrees, and k-d trees"), whose rule for equal codes is used too:
-// they are told apart by their places. Departures: the SAH has no say in the splits, but decides bottom-up
-// which subtrees become leaves; and no hierarchy with pointers is made first. The order is cut into runs,
-// each a subtree, whose nodes come out in their final, depth-first order: from right to left, a triangle's
-// node is merged with what stands to its right for as long as the next level to its left is higher in the
-// tree. So parents follow their children, and a right sibling's nodes precede the left one's; read backwards,
-// that is depth first.
+// LBVH (Lauterbach et al. 2009, "Fast BVH construction on GPUs"): triangles are in Morton order, and each
+// node is split where the highest bit of the codes changes, as in the binary radix tree of Karras 2012
+// ("Maximizing parallelism in the construction of BVHs, octrees, and k-d trees"). Karras' rule for equal
+// codes is used too: their places distinguish them. Departures:
+//
+// - The SAH decides bottom-up which subtrees become leaves. It does not choose splits.
+// - No hierarchy with pointers is made first. The order is cut into runs, and each run is a subtree whose
+//   nodes are made in their final, depth-first order. The run is walked from right to left: a triangle's node
+//   is merged with the subtree to its right as long as the next level to its left is higher in the tree. So
+//   parents are made after their children, and a right sibling's nodes before the left sibling's. Read
+//   backwards, that is depth first.
 
 #include "build/lbvh.h"
 
@@ -30,15 +32,16 @@
 namespace bvhio {
 namespace {
 
-/// A part of the tree, over places [begin, end) of the Morton order: a subtree that one task builds, or,
-/// above those, one node. Parts stand in an array depth first: a node's left child is the next one.
+/// A part of the tree, over places [begin, end) of the Morton order: a subtree that one task builds, or a
+/// single node above the subtrees. Parts are in depth-first order in their array, so the left child of a node
+/// is the next part.
 struct Part {
     uint32_t begin = 0, end = 0;
     uint32_t right = 0;  // the right child; 0 = this is a subtree
     Box bounds;
     Node root{};
     uint32_t nodeCount = 2;  // below the root
-    uint32_t firstNode = 0;  // where they go in the whole tree
+    uint32_t firstNode = 0;  // the place of these nodes in the whole tree
 };
 
 }  // namespace
@@ -50,7 +53,7 @@ namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Builds one subtree: pairs below its root are left at the end of a buffer, depth first.
+/// Builds one subtree. The pairs below its root end up at the end of a buffer, depth first.
 class Growth {
   public:
     Growth(const Scene& scene, const MortonOrder& order, const LeafRule& rule)
@@ -62,7 +65,7 @@ class Growth {
         nodes_ = nodes.data();
         freeSlots_ = uint32_t(nodes.size());
         depth_ = 0;
-        levels_[0] = 0;  // below all others, so that nothing merges with what is not there
+        levels_[0] = 0;  // less than all levels, so that nothing merges with an empty stack
         for (uint32_t end = part.end; end != part.begin;) {
             const uint32_t begin = end - std::min(end - part.begin, kBlock);
             push(begin, end, part.begin);
@@ -77,11 +80,11 @@ class Growth {
   private:
     static constexpr uint32_t kBlock = 64;
 
-    /// A finished subtree, that of the places after the next one on the stack.
+    /// A finished subtree on the stack. Its places come before those of the subtree below it on the stack.
     struct alignas(32) Subtree {
         float box[8];
-        float cost;                // SAH, times areas
-        uint32_t first, leafSize;  // as Node's
+        float cost;                // SAH cost, not divided by the root's area
+        uint32_t first, leafSize;  // as Node's first and primitiveCount
         uint32_t count;
         uint32_t slotsBefore;  // free slots before its nodes were placed
 
@@ -90,14 +93,16 @@ class Growth {
         }
     };
 
-    /// The place so many blocks before another, and at least `first`.
+    /// Returns the place `blocks` blocks before `place`, but at least `first`.
     static uint32_t ahead(uint32_t place, uint32_t first, uint32_t blocks) {
         return place - std::min(place - first, blocks * kBlock);
     }
 
+    /// Pushes the triangles of places [begin, end) as leaves, from right to left, and merges what they
+    /// complete.
     void push(uint32_t begin, uint32_t end, uint32_t first) {
         alignas(32) float boxes[kBlock][8];
-        // Both reads go anywhere in memory: ask early.
+        // The triangles and their vertices are anywhere in memory: prefetch those of the next blocks.
         for (uint32_t i = ahead(begin, first, 2); i < ahead(end, first, 2); ++i)
             hwy::Prefetch(&triangles_[order_.triangles[i]]);
         for (uint32_t i = ahead(begin, first, 1); i < ahead(end, first, 1); ++i)
@@ -118,7 +123,7 @@ class Growth {
         }
     }
 
-    /// Makes one subtree of the two topmost, the first of which begins at place `begin`.
+    /// Merges the two topmost subtrees. The left one begins at place `begin`.
     void merge(uint32_t begin) {
         Subtree &left = stack_[depth_], &right = stack_[depth_ - 1];
         const BoxV box = unite(BoxV::load(left.box), BoxV::load(right.box));
@@ -158,7 +163,7 @@ class Growth {
     uint32_t freeSlots_ = 0;
     uint32_t depth_ = 0;
     Subtree stack_[kMaxDepth + 2];
-    uint32_t levels_[kMaxDepth + 2];  // to the left of each
+    uint32_t levels_[kMaxDepth + 2];  // the level to the left of each subtree
 };
 
 void growPart(const Scene& scene, const MortonOrder& order, const LeafRule& rule, Part& part,
@@ -208,8 +213,9 @@ class LbvhBuild {
     }
 
   private:
-    static constexpr uint32_t kTask = 1u << 12;  // up to here one task builds the whole subtree
+    static constexpr uint32_t kTask = 1u << 12;  // up to this size, one task builds the whole subtree
 
+    /// Divides places [begin, end) into subtrees and the nodes above them, where the level is lowest.
     void cut(uint32_t begin, uint32_t end) {
         const size_t part = parts_.size();
         Part& added = parts_.emplace_back();
@@ -226,7 +232,7 @@ class LbvhBuild {
         cut(middle, end);
     }
 
-    /// Gives a subtree its place, and first all nodes that precede it.
+    /// Assigns places to the nodes of a subtree, and to all nodes before them that have no places yet.
     void place(size_t subtree) {
         for (; placed_ <= subtree; ++placed_) {
             parts_[placed_].firstNode = nodeCount_;
@@ -234,6 +240,7 @@ class LbvhBuild {
         }
     }
 
+    /// Copies the nodes of a subtree to their places in the whole tree.
     void copy(Part& part, const Buffer<Node>& nodes) {
         const auto unused = uint32_t(nodes.size()) - part.nodeCount;
         const Node* from = nodes.data() + unused;

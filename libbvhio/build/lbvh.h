@@ -1,4 +1,4 @@
-// The fastest builder: the order of Morton codes is the tree.
+// The fastest builder: the tree follows from the order of Morton codes alone.
 #pragma once
 
 #include "build/builders.h"

@@ -1,6 +1,6 @@
-// Object median splits: halves the triangles by centroid along the longest axis of their centroids' box (Kay
-// and Kajiya 1986 split so; we order centroids by (value, triangle id), so that equal centroids still split
-// in half and the depth stays at log2 of the triangle count).
+// Object median splits (Kay and Kajiya 1986): halves the triangles by centroid along the longest axis of the
+// box of their centroids. Our departure: centroids are ordered by (value, triangle id), so that equal
+// centroids are also halved, and the depth stays at log2 of the triangle count.
 
 #include "build/median.h"
 
@@ -37,8 +37,7 @@ struct MedianBuild {
                              const float ca = centroids[a][axis], cb = centroids[b][axis];
                              return ca != cb ? ca < cb : a < b;
                          });
-        // nth_element leaves each half in an order that depends on the library; ids in ascending order do
-        // not.
+        // The order that nth_element leaves in each half depends on the library. Ascending ids do not.
         std::sort(order.begin() + first, order.begin() + first + half);
         std::sort(order.begin() + first + half, order.begin() + first + count);
 

@@ -1,4 +1,4 @@
-// The plainest builder: object median splits.
+// The simplest builder: object median splits.
 #pragma once
 
 #include "build/builders.h"

@@ -1,6 +1,6 @@
-// Places are given from the root down: a pair that knows its own tells those of its children, which are in
-// earlier rounds; and pairs of one round don't depend on each other. So passes over the rounds, backwards,
-// put every node where depth-first order wants it, without walking the tree.
+// Nodes get their places from the root down: a pair that has its place gives places to its children, which
+// are in earlier rounds. Pairs of the same round don't depend on each other. So passes over the rounds, from
+// the last to the first, put every node at its depth-first place, without walking the tree.
 
 #include "build/merged_tree.h"
 
@@ -38,6 +38,8 @@ Bvh MergedTree::finish(const Reference& root) {
         pairs_[root.primitive / 2].below.leaves = 0;
         pairs_[root.primitive / 2].below.slots = firstSlot;
     }
+
+    // Place the pairs of each round, the last round first.
     constexpr size_t kGrain = 1 << 12;
     uint32_t end = leafCount() - 1;
     for (size_t round = rounds_.size(); round-- > 0;) {
@@ -55,7 +57,7 @@ Bvh MergedTree::finish(const Reference& root) {
     return {std::move(nodes).share(), std::move(primitives).share()};
 }
 
-/// What `place` reads is anywhere in memory: ask for it early, in two steps.
+/// Prefetch, in two steps, the data that `place` reads, which is anywhere in memory.
 void MergedTree::prefetchBelow(uint32_t number) const {
     for (const uint32_t key : pairs_[number].keys) {
         if (isLeaf(key))
@@ -72,7 +74,7 @@ void MergedTree::prefetchTriangles(uint32_t number) const {
     }
 }
 
-/// Writes a pair's nodes, and tells the pairs below them their places.
+/// Writes the nodes of a pair, and gives the pairs below them their places.
 void MergedTree::place(uint32_t number, Node* nodes, uint32_t* primitives) {
     const Pair& pair = pairs_[number];
     const uint32_t slot = pair.below.slots;
@@ -96,7 +98,7 @@ void MergedTree::place(uint32_t number, Node* nodes, uint32_t* primitives) {
     }
 }
 
-/// Leaves it to `collapse` to balance what is too deep.
+/// Makes the tree by `collapse`, which balances subtrees that are too deep.
 Bvh MergedTree::finishDeep(const Reference& root) const {
     Buffer<Node> nodes(2 * order_.triangles.size());
     const auto loose = [&](uint32_t key) {

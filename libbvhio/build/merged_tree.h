@@ -1,4 +1,4 @@
-// A tree made from the leaves up, and how it becomes canonical.
+// A tree that is made from the leaves up, and then turned into a canonical one.
 #pragma once
 
 #include <hwy/cache_control.h>
@@ -13,29 +13,29 @@
 namespace bvhio {
 
 /// Sibling pairs in the order in which they were joined, over leaves of one triangle each, in Morton order. A
-/// cluster is the root of what was joined so far: its box, and as `primitive` a key that tells which leaf it
-/// is or which pair is below it. Which subtrees become leaves is decided at once.
+/// cluster is the root of a subtree: a Reference with the cluster's box and, as `primitive`, a key of either
+/// a leaf or the pair below the cluster. Each join decides at once whether the joined subtree becomes a leaf.
 class MergedTree {
   public:
     MergedTree(const Scene& scene, const MortonOrder& order, const LeafRule& rule);
 
-    /// The key of a cluster of one leaf.
+    /// Returns the key of a cluster of one leaf.
     static uint32_t leafKey(uint32_t place) { return 2 * place + 1; }
 
-    /// Tells that pairs from number `pair` on may be above those before. What was joined from there on is
-    /// forgotten.
+    /// Starts a round of joins: pairs from number `pair` on may be above earlier ones. Forgets pairs that
+    /// were joined from that number on.
     void startRound(uint32_t pair) {
         while (!rounds_.empty() && rounds_.back() >= pair) rounds_.pop_back();
         rounds_.push_back(pair);
     }
 
-    /// Asks for what `join` will read about a cluster.
+    /// Prefetches the data that `join` will read about a cluster.
     void prefetch(const Reference& cluster) const {
         if (!isLeaf(cluster.primitive)) hwy::Prefetch(&pairs_[cluster.primitive / 2].below);
     }
 
-    /// Joins two clusters as pair number `pair`, and returns the cluster above. From several threads at once,
-    /// for different pairs.
+    /// Joins two clusters as pair `number`, and returns the cluster above it. May be called from several
+    /// threads at once, for different pairs.
     Reference join(uint32_t number, const Reference& left, const Reference& right) {
         Pair& pair = pairs_[number];
         Reference above;
@@ -61,17 +61,18 @@ class MergedTree {
         return above;
     }
 
-    /// The SAH cost of what is below a cluster, times areas.
+    /// Returns the SAH cost of a cluster's subtree, not divided by the root's area.
     float cost(const Reference& cluster) const { return below(cluster).cost; }
 
-    /// Makes the canonical tree, after which nothing can be done with this one.
+    /// Makes the canonical tree. This tree cannot be used afterwards.
     Bvh finish(const Reference& root);
 
   private:
-    /// What is below a cluster; and then, from the root down, where in the canonical tree that goes.
+    /// Sizes of the subtree below a cluster. `finish` replaces them, from the root down, by the subtree's
+    /// places in the canonical tree.
     struct Below {
-        uint32_t leaves;  // then: place of the first one's primitive
-        uint32_t slots;   // for nodes, 0 = it is a leaf; then: place of the pair, 0 = in a leaf
+        uint32_t leaves;  // their number; then: the place of the first leaf's primitive
+        uint32_t slots;   // number of slots for nodes, 0 = a leaf; then: the place of the pair, 0 = in a leaf
         float cost;
         uint32_t height;
     };
@@ -102,7 +103,7 @@ class MergedTree {
     const MortonOrder& order_;
     const LeafRule rule_;
     Buffer<Pair> pairs_;
-    std::vector<uint32_t> rounds_;  // the first pair of each
+    std::vector<uint32_t> rounds_;  // the first pair of each round
 };
 
 }  // namespace bvhio

@@ -20,13 +20,13 @@
 namespace bvhio {
 namespace {
 
-/// Maps a box's doubled centre to a cell of 2^21 an axis, by (centre - origin) * factor.
+/// Maps the doubled centre of a box to one of 2^21 cells per axis, by (centre - origin) * factor.
 struct MortonGrid {
-    float scale;  // of coordinates, areaScale
+    float scale;  // of coordinates: their areaScale
     alignas(16) float origin[4];
     alignas(16) float factor[4];
 
-    /// Over `bounds`, which are not scaled.
+    /// Makes a grid over `bounds`, which are not scaled.
     explicit MortonGrid(const Box& bounds) : scale(areaScale(bounds)), origin{}, factor{} {
         float longest = 0;
         for (int axis = 0; axis < 3; ++axis) {
@@ -48,7 +48,7 @@ namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Puts the low 21 bits of each lane at every third place.
+/// Spreads the low 21 bits of each lane to every third bit.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V spread(D d, V v) {
     v = hn::And(hn::Or(v, hn::ShiftLeft<32>(v)), hn::Set(d, 0x001f00000000ffff));
@@ -58,7 +58,8 @@ HWY_INLINE V spread(D d, V v) {
     return hn::And(hn::Or(v, hn::ShiftLeft<2>(v)), hn::Set(d, 0x1249249249249249));
 }
 
-/// Codes of triangles [begin, end), from the highest bit down; returns the bounds of their scaled boxes.
+/// Computes the codes of triangles [begin, end), from the highest bit down. Returns the bounds of their
+/// scaled boxes.
 Box encodeSome(const Scene& scene, size_t begin, size_t end, const MortonGrid& grid, uint64_t* codes) {
     constexpr size_t kBlock = 64;
     alignas(64) uint32_t cells[kBlock][4] = {};
@@ -71,6 +72,7 @@ Box encodeSome(const Scene& scene, size_t begin, size_t end, const MortonGrid& g
     const TriangleBoxes boxes(scene, grid.scale);
     BoxV all = BoxV::empty();
     for (size_t block = begin; block < end; block += kBlock) {
+        // Compute the cells of a block of triangles, and prefetch the next block.
         const size_t count = std::min(kBlock, end - block);
         const size_t nextEnd = std::min(end, block + 2 * kBlock);
         for (size_t i = block + count; i < nextEnd; ++i) boxes.prefetch(scene.triangles[i]);
@@ -81,6 +83,8 @@ Box encodeSome(const Scene& scene, size_t begin, size_t end, const MortonGrid& g
             hn::Store(hn::BitCast(FourU(), hn::ConvertTo(di, hn::Max(hn::Min(cell, most), hn::Zero(d)))),
                       FourU(), cells[i]);
         }
+
+        // Interleave the bits of x, y and z.
         alignas(64) uint64_t blockCodes[kBlock];
         for (size_t i = 0; i < count; i += hn::Lanes(d64)) {
             hn::Vec<decltype(d32)> x, y, z, unused;
@@ -138,7 +142,8 @@ MortonOrder mortonOrder(const Scene& scene) {
             return HWY_DYNAMIC_DISPATCH(encodeSome)(scene, begin, end, grid, codes.data());
         });
     };
-    // The vertices' bounds are quicker to get than the triangles', and the same unless vertices are unused.
+    // The bounds of the vertices are faster to compute than those of the triangles, and equal unless vertices
+    // are unused. If they are too large, start again with the bounds of the triangles.
     MortonGrid grid(boundsOfVertices(scene));
     const Box used = encode(grid);
     const float usedExtent = std::max({used.extent(0), used.extent(1), used.extent(2)});

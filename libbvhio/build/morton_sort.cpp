@@ -1,7 +1,7 @@
-// A radix sort from the most significant bits down, which moves indices alone: codes stay where they are, and
+// A radix sort from the most significant bits down that moves only indices. Codes stay where they are:
 // triangles of a mesh that are near in space tend to be near in memory. A run of indices is distributed over
-// buckets by its next bits until it is short; then its codes, without the bits that all share, fit one word
-// with their places in the run, and such words are sorted in the cache.
+// buckets by its next bits until it is short. Then a code, without the bits that all codes of the run share,
+// fits into one word together with its place in the run, and such words are sorted in the cache.
 
 #include "build/morton_sort.h"
 
@@ -15,19 +15,19 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kShort = 1u << 12;  // longest run that is sorted in the cache
-constexpr uint32_t kTask = 1u << 14;   // indices that a task sorts, at least
+constexpr uint32_t kShort = 1u << 12;  // the longest run that is sorted in the cache
+constexpr uint32_t kTask = 1u << 14;   // the fewest indices that a task sorts
 constexpr size_t kGrain = 1u << 15;    // indices that a task distributes
 
-/// Indices [begin, begin + count) whose codes share the `common` leading bits; in which of the two arrays.
+/// Indices [begin, begin + count) whose codes share `common` leading bits. `side` is the array that has them.
 struct Run {
     uint32_t begin, count, common, side;
 };
 
-/// Sorts keys, no two equal, by the digits that matter and then by insertion.
+/// Sorts keys that all differ: by the digits that matter, and then by insertion.
 class KeySort {
   public:
-    /// `differing`: the bits that not all keys have in common. The result may be in either array.
+    /// Sorts keys. `differing` has the bits in which not all keys agree. The result may be in either array.
     static uint64_t* sort(uint64_t* keys, uint64_t* spare, uint32_t count, uint64_t differing) {
         if (count > kMany)
             keys = distribute<3>(keys, spare, count, differing);
@@ -40,7 +40,7 @@ class KeySort {
   private:
     static constexpr uint32_t kFew = 32, kMany = 1024;
 
-    /// Orders by the highest kPasses * 8 bits that differ.
+    /// Sorts by the highest kPasses * 8 bits that differ.
     template <uint32_t kPasses>
     static uint64_t* distribute(uint64_t* keys, uint64_t* spare, uint32_t count, uint64_t differing) {
         const auto lowest = uint32_t(std::max(0, int(std::bit_width(differing)) - int(8 * kPasses)));
@@ -59,8 +59,8 @@ class KeySort {
         return keys;
     }
 
-    /// Few keys are out of place now, and not far; if they are, because many share all those digits, sorts
-    /// otherwise.
+    /// Sorts by insertion: few keys are out of place now, and not far. If many are, because they share all
+    /// those digits, uses another sort.
     static void insert(uint64_t* keys, uint32_t count) {
         uint32_t steps = 16 * count;
         for (uint32_t i = 1; i < count; ++i) {
@@ -91,20 +91,21 @@ class CodeSort {
     }
 
   private:
-    /// Afterwards the run is in sides_[0].
+    /// Sorts a run into sides_[0].
     void sort(Run run) {
-        // Places must fit in the bits that the common ones leave free.
+        // Places must fit into the bits that are free once the common bits are left out.
         const auto fits = [&] {
             return uint32_t(std::bit_width(run.count - 1)) <= run.common + 64 - kMortonBits;
         };
         if (run.count <= kShort && fits()) return sortShort(run);
-        // Not for the whole order at once: it rarely shares much.
+        // The whole order rarely shares many bits, so skip the pass that counts them.
         if (run.common > 0 || run.count <= kGrain) run.common = uint32_t(std::countl_zero(differing(run)));
         if (run.common >= kMortonBits) return keepOrder(run);
         if (run.count <= kShort && fits()) return sortShort(run);
         distribute(run);
     }
 
+    /// Returns the bits in which not all codes of a run agree.
     uint64_t differing(const Run& run) const {
         const uint32_t* indices = sides_[run.side] + run.begin;
         const uint64_t first = codes_[indices[0]];
@@ -113,6 +114,7 @@ class CodeSort {
         return bits;
     }
 
+    /// Returns the level between a place and the next one if their codes are equal.
     uint8_t tieLevel(uint32_t place) const {
         return uint8_t(kMortonBits + uint32_t(std::countl_zero(place ^ (place + 1))));
     }
@@ -121,12 +123,13 @@ class CodeSort {
         return code == next ? tieLevel(place) : uint8_t(std::countl_zero(code ^ next));
     }
 
-    /// Equal codes stand in the order of ids already.
+    /// Finishes a run of equal codes, which is in the order of ids already.
     void keepOrder(const Run& run) {
         if (run.side != 0) std::copy_n(sides_[run.side] + run.begin, run.count, sides_[0] + run.begin);
         for (uint32_t i = run.begin; i + 1 < run.begin + run.count; ++i) levels_[i] = tieLevel(i);
     }
 
+    /// Sorts a short run in the cache.
     void sortShort(const Run& run) {
         const uint32_t count = run.count;
         uint32_t* const to = sides_[0] + run.begin;
@@ -150,23 +153,28 @@ class CodeSort {
         }
     }
 
-    /// Moves the indices to the other array, ordered by the next bits, and sorts what shares them.
+    /// Moves the indices to the other array, sorted by their next bits, and sorts the runs that share these
+    /// bits.
     void distribute(const Run& run) {
         const uint32_t* from = sides_[run.side] + run.begin;
         uint32_t* const to = sides_[run.side ^ 1] + run.begin;
-        // Buckets of some 256 indices, if codes were spread evenly.
+        // If codes were spread evenly, buckets would have about 256 indices.
         const auto digit = uint32_t(std::clamp(int(std::bit_width(run.count)) - 8, 6, 12));
         const uint32_t buckets = 1u << digit;
         const auto bucketOf = [&](uint32_t index) {
             return uint32_t(codes_[index] << run.common >> (64 - digit));
         };
+
+        // Count the indices of each bucket, chunk by chunk.
         const size_t chunks = (run.count + kGrain - 1) / kGrain;
-        std::vector<uint32_t> next(chunks * buckets);  // where each chunk's next index of each bucket goes
+        std::vector<uint32_t> next(chunks * buckets);  // the place of each chunk's next index of each bucket
         parallelChunks(run.count, kGrain, [&](size_t begin, size_t end) {
             uint32_t* const counts = next.data() + begin / kGrain * buckets;
             for (size_t i = begin; i < end; ++i) ++counts[bucketOf(from[i])];
         });
-        std::vector<uint32_t> places(buckets);  // where each bucket's next index of any chunk goes
+
+        // Compute the places of buckets, and of each chunk's share of a bucket.
+        std::vector<uint32_t> places(buckets);  // the place of each bucket's next index of any chunk
         for (size_t i = 0; i < next.size(); ++i) places[i % buckets] += next[i];
         std::vector<Run> runs;
         const uint32_t common = std::min(run.common + digit, kMortonBits);
@@ -178,6 +186,8 @@ class CodeSort {
         }
         for (size_t i = 0; i < next.size(); ++i)
             places[i % buckets] += std::exchange(next[i], places[i % buckets]);
+
+        // Move the indices, and sort the buckets.
         parallelChunks(run.count, kGrain, [&](size_t begin, size_t end) {
             uint32_t* const own = next.data() + begin / kGrain * buckets;
             for (size_t i = begin; i < end; ++i) to[own[bucketOf(from[i])]++] = from[i];
@@ -189,6 +199,7 @@ class CodeSort {
         }
     }
 
+    /// Sorts runs by tasks of at least kTask indices each.
     void sortAll(const std::vector<Run>& runs) {
         TaskGroup group;
         size_t first = 0;

@@ -1,5 +1,5 @@
-// The best split of a range's references by binned centroids: finding it and moving the references. Included
-// once for each SIMD target.
+// Finds the best split of a range's references by binned centroids, and moves the references. Included once
+// for each SIMD target.
 #if defined(BVHIO_BUILD_OBJECT_SPLIT_SIMD_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_BUILD_OBJECT_SPLIT_SIMD_H
 #undef BVHIO_BUILD_OBJECT_SPLIT_SIMD_H
@@ -20,7 +20,8 @@ namespace {
 
 constexpr uint32_t kGrain = 1 << 13;  // references that a task bins or moves at a time
 
-/// Bins by default: many where a node is wide and its choice weighs on all below, few where references are.
+/// Returns the default number of bins: many for many references, whose split affects a large subtree, and few
+/// for few references.
 uint32_t defaultBins(uint32_t count) {
     return count >= 1u << 16 ? 64 : count >= 32 ? 16 : 8;
 }
@@ -29,7 +30,7 @@ uint32_t defaultBins(uint32_t count) {
 struct ObjectSplit {
     Grid grid;
     Split plane;
-    std::vector<uint32_t> leftsBefore;  // by chunk of kGrain references, if found in chunks
+    std::vector<uint32_t> leftsBefore;  // references that go left before each chunk, if found in chunks
 
     ObjectSplit() : grid(Box::empty(), 0, 0) {}
 };
@@ -43,7 +44,7 @@ void partition(const Reference* references, uint32_t count, const Grid& grid, co
     for (uint32_t i = 0; i < count; ++i) {
         const Reference& reference = references[i];
         const bool isRight = (reference.centroid(axis) - origin) * scale + Grid::kRound > limit;
-        // No branch: which side is next is anyone's guess.
+        // Without a branch, which the processor could not predict.
         Reference* const to = isRight ? right : left;
         BoxV::load(floats(&reference)).store(reinterpret_cast<float*>(to));
         right += isRight;
@@ -51,7 +52,7 @@ void partition(const Reference* references, uint32_t count, const Grid& grid, co
     }
 }
 
-/// Bounds and counts of both sides, from the bins.
+/// Sets the bounds and counts of both sides, from the bins.
 void describeSides(const Bins& bins, const Split& split, Range& left, Range& right) {
     const float(*boxes)[8] = bins.boxes + split.axis * bins.perAxis;
     const uint32_t* counts = bins.counts + split.axis * bins.perAxis;
@@ -68,6 +69,8 @@ void describeSides(const Bins& bins, const Split& split, Range& left, Range& rig
     describe(split.lastLeft + 1, bins.perAxis, right);
 }
 
+/// Finds the best plane between the bins of `best.grid`. Returns false if all references are in one bin of
+/// each axis.
 bool findOverGrid(const Reference* references, uint32_t count, bool parallel, ObjectSplit& best, Range& left,
                   Range& right) {
     Bins bins;
@@ -88,7 +91,7 @@ bool findOverGrid(const Reference* references, uint32_t count, bool parallel, Ob
     if (best.plane.axis < 0) return false;
     describeSides(bins, best.plane, left, right);
 
-    // How many go left before each chunk: the chunks' bins know.
+    // Count the references that go left before each chunk, from the chunks' bins.
     best.leftsBefore.resize(chunks.size());
     uint32_t lefts = 0;
     for (size_t i = 0; i < chunks.size(); ++i) {
@@ -99,12 +102,12 @@ bool findOverGrid(const Reference* references, uint32_t count, bool parallel, Ob
     return true;
 }
 
-/// Finds the split of least SAH among planes between `bins` per axis (0 = by the number of references), and
-/// the bounds and counts of its sides. False when there is none: the range is without area, or all centroids
-/// coincide.
+/// Finds the split of least SAH cost among the planes between `bins` bins per axis (0 = by the number of
+/// references), and the bounds and counts of its sides. Returns false if there is no split, because the range
+/// has no area or all centroids coincide.
 bool findObjectSplit(const ReferenceArrays& references, const Range& range, uint32_t bins, bool parallel,
                      ObjectSplit& best, Range& left, Range& right) {
-    // Boxes without area, on a line or a point, have no SAH to go by.
+    // The SAH cannot compare planes if boxes have no area (all on a line or a point).
     if (!(range.bounds.halfArea() > std::numeric_limits<float>::min())) return false;
     if (bins == 0) bins = defaultBins(range.count);
     best.grid = Grid(range.bounds, 2, bins);

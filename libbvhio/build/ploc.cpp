@@ -1,13 +1,14 @@
 // PLOC (Meister and Bittner 2018, "Parallel locally-ordered clustering for bounding volume hierarchy
-// construction"; with later work's finer points, Benthin et al. 2022, "PLOC++"): clusters, at first one a
-// triangle, in Morton order. In each round every cluster finds the one within a radius in the order with
-// which its common box is smallest, and those that find each other are joined. Departures:
-// - Chains in which each finds the one before it make few mutual pairs: the next round then joins neighbours
-//   in the order, so that rounds are at most logarithmically many.
-// - Greedy joining is a little worse than top-down splits where surfaces are smooth, and better on parts of
-//   mixed sizes. So the clusters left when they are an eighth of the triangles get both trees, and the
-//   cheaper one is kept.
-// - Which subtrees become leaves is decided as they are joined (merged_tree).
+// construction"; with refinements of Benthin et al. 2022, "PLOC++"). Clusters, at first one per triangle, are
+// in Morton order. In each round every cluster searches the clusters within a radius in the order for the one
+// with which its common box is smallest. Clusters that find each other are joined. Departures:
+//
+// - Chains in which each cluster finds the one before it have few mutual pairs. The next round then joins
+//   neighbours in the order, so that the number of rounds is at most logarithmic.
+// - Greedy joining is a little worse than top-down splits on smooth surfaces, and better on parts of mixed
+//   sizes. So when the clusters are down to an eighth of the triangles, both kinds of tree are built over
+//   them, and the cheaper one is kept.
+// - Each join decides at once whether the subtree becomes a leaf (merged_tree).
 
 #include "build/ploc.h"
 
@@ -33,7 +34,7 @@ namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// The clusters of one triangle each at places [begin, end) of the order.
+/// Makes the clusters, of one triangle each, at places [begin, end) of the order.
 void makeClusters(const Scene& scene, const MortonOrder& order, uint32_t begin, uint32_t end,
                   Reference* clusters) {
     constexpr uint32_t kAhead = 32;
@@ -89,8 +90,9 @@ class PlocBuild {
   private:
     static constexpr size_t kGrain = 1 << 12;
     static constexpr uint32_t kUpperShare = 8;
-    static constexpr uint32_t kAhead = 16;  // clusters to ask for before they are joined
+    static constexpr uint32_t kAhead = 16;  // how far ahead clusters are prefetched
 
+    /// Joins clusters in rounds until at most `count` are left.
     void joinUntil(uint32_t count) {
         while (count_ > count) {
             const uint32_t before = count_;
@@ -110,10 +112,12 @@ class PlocBuild {
         });
     }
 
-    /// Joins clusters that have each other in `nearest_`. The joined one takes the first one's place.
+    /// Joins clusters that are each other's `nearest_`. The joined cluster takes the place of the first one.
     void joinNearest() {
         static constexpr PartnerOffsets kOffsets;
-        nearest_[count_] = kPartners;  // nobody's partner
+        nearest_[count_] = kPartners;  // not a partner's number
+
+        // Count the clusters that stay and those that are joined, chunk by chunk.
         struct Chunk {
             uint32_t kept = 0, joined = 0;
         };
@@ -128,17 +132,20 @@ class PlocBuild {
             }
             chunks[begin / kGrain] = chunk;
         });
+
+        // Turn the counts into places.
         Chunk sum{0, pairCount_};
         for (Chunk& chunk : chunks) {
             const Chunk own = std::exchange(chunk, sum);
             sum.kept += own.kept;
             sum.joined += own.joined;
         }
+
+        // Copy the clusters that stay, and then write the joined ones over the first of each pair. This
+        // avoids a branch that cannot be predicted.
         tree_.startRound(pairCount_);
         parallelChunks(count_, kGrain, [&](size_t begin, size_t end) {
             auto [to, pair] = chunks[begin / kGrain];
-            // First all that stay, then the joined ones over the first of each pair: no branch that nobody
-            // can predict.
             struct Joined {
                 uint32_t first, second, to;
             };
@@ -168,6 +175,7 @@ class PlocBuild {
 
     /// Joins the remaining clusters, or splits them from the root down if that is cheaper.
     void joinUpper() {
+        // The bounds and the cost of the remaining clusters.
         const uint32_t remaining = count_, firstPair = pairCount_;
         Buffer<Reference> lower(remaining), references(remaining);
         struct Sum {
@@ -190,6 +198,8 @@ class PlocBuild {
             all.bounds.extend(sum.bounds);
             all.cost += sum.cost;
         }
+
+        // The cost of the tree by splits; then join the clusters, and compare.
         const Bvh split = buildBinnedOver(std::move(references), all.bounds, options_.costs);
         double splitCost = all.cost;
         for (size_t i = 0; i < split.nodes.size(); ++i)
@@ -201,7 +211,7 @@ class PlocBuild {
         joinAs(split, lower);
     }
 
-    /// Joins clusters as a tree over them tells, level by level from the deepest up.
+    /// Joins clusters like a given tree over them, level by level from the deepest up.
     void joinAs(const Bvh& split, const Buffer<Reference>& lower) {
         const size_t slots = split.nodes.size();
         std::vector<std::vector<uint32_t>> levels;  // inner nodes

@@ -1,4 +1,4 @@
-// Agglomerative building in parallel rounds.
+// Agglomerative clustering in parallel rounds.
 #pragma once
 
 #include "build/builders.h"

@@ -1,4 +1,4 @@
-// All lanes of a vector hold different clusters, and meet their partners one distance after the other.
+// Each lane of a vector holds another cluster. All lanes look at their partners one distance after another.
 
 #include "build/ploc_search.h"
 
@@ -19,7 +19,8 @@ namespace {
 using Lanes = hn::ScalableTag<float>;
 using LanesU = hn::RebindToUnsigned<Lanes>;
 
-/// The boxes around a chunk of clusters, each coordinate by itself; far away where there are none.
+/// The boxes of a chunk of clusters and of those around it, each coordinate in its own array. Where there are
+/// no clusters, boxes are far away.
 class Surroundings {
   public:
     Surroundings(const Reference* clusters, uint32_t count, uint32_t begin, uint32_t end) {
@@ -36,7 +37,7 @@ class Surroundings {
             }
     }
 
-    /// A coordinate of the boxes from the chunk's place `i` on.
+    /// Loads a coordinate of the boxes from place `i` of the chunk on.
     HWY_INLINE hn::Vec<Lanes> load(int number, int64_t i) const {
         return hn::LoadU(Lanes(), numbers_[number] + kRadius + i);
     }
@@ -59,7 +60,7 @@ void findNearestSimd(const Reference* clusters, uint32_t count, uint32_t begin, 
     for (uint32_t i = 0; begin + i < end; i += lanes) {
         const V x0 = boxes.load(0, i), y0 = boxes.load(1, i), z0 = boxes.load(2, i), x1 = boxes.load(3, i),
                 y1 = boxes.load(4, i), z1 = boxes.load(5, i);
-        // The area of the common box, and in its lowest bits the partner.
+        // The area of the common box, with the partner's number in its lowest bits.
         const auto rate = [&](int64_t j, VU partner) HWY_ATTR {
             const V x = hn::Add(hn::Max(x0, boxes.load(0, j)), hn::Max(x1, boxes.load(3, j)));
             const V y = hn::Add(hn::Max(y0, boxes.load(1, j)), hn::Max(y1, boxes.load(4, j)));

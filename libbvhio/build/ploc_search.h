@@ -1,4 +1,4 @@
-// Which clusters PLOC joins: the search for each one's nearest.
+// The search of PLOC for the nearest cluster of each cluster.
 #pragma once
 
 #include <bit>
@@ -7,15 +7,16 @@
 
 namespace bvhio {
 
-inline constexpr uint32_t kSearchGrain = 1 << 10;  // most clusters that a call searches for
+inline constexpr uint32_t kSearchGrain = 1 << 10;  // the most clusters of one call
 inline constexpr uint32_t kRadius = 16;            // a power of two
 
-/// Partners of cluster i are i + k and i - k, k from 1 to kRadius. Two clusters call each other by the same
-/// number, lower for smaller k: 2 (k - 1), and 1 more for every other pair at that distance. For that, pairs
-/// at distance k = 2^n * odd number alternate with bit n of their first one.
+/// The partners of cluster i are i + k and i - k, for k from 1 to kRadius. Partners have numbers, and two
+/// clusters have the same number for each other. The number is 2 (k - 1), plus 1 for every other pair at
+/// distance k, so it is lower for smaller k. Pairs at distance k = 2^n * odd number alternate with bit n of
+/// their first cluster.
 inline constexpr uint32_t kPartners = 2 * kRadius;
 
-/// Where the partners are: what to add to i. At most log2 of kRadius and one more low bits of i matter.
+/// The offset from cluster i to each of its partners. It depends only on the low log2(kRadius) + 1 bits of i.
 struct PartnerOffsets {
     int8_t offsets[kPartners][kPartners];
 
@@ -30,9 +31,10 @@ struct PartnerOffsets {
     int operator()(uint32_t i, uint8_t number) const { return offsets[i % kPartners][number]; }
 };
 
-/// Finds, for each cluster of [begin, end), the partner with which its common box is smallest, by number.
-/// Distances that differ by less than 2^-18 count as equal; then the lowest number wins. Since partners share
-/// it, the two of least distance always find each other, and of a million equal boxes all do at once.
+/// Finds for each cluster of [begin, end) the number of the partner with which its common box is smallest.
+/// Areas that differ by less than 2^-18 count as equal; then the lowest number wins. Since partners share a
+/// number, the two clusters with the smallest common box always find each other, and of a million equal boxes
+/// all do at once.
 void findNearest(const Reference* clusters, uint32_t count, uint32_t begin, uint32_t end, uint8_t* nearest);
 
 }  // namespace bvhio

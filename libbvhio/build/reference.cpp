@@ -18,7 +18,7 @@ namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// References of triangles [begin, end), their boxes scaled; returns the boxes' bounds.
+/// Makes the references of triangles [begin, end), with scaled boxes. Returns the bounds of the boxes.
 Box makeSome(const Scene& scene, size_t begin, size_t end, float scale, Reference* references) {
     const TriangleBoxes boxes(scene, scale);
     BoxV all = BoxV::empty();
@@ -67,8 +67,8 @@ float areaScale(const Box& bounds) {
     float largest = 0;
     for (int axis = 0; axis < 3; ++axis)
         largest = std::max({largest, std::fabs(bounds.negatedMin[axis]), std::fabs(bounds.max[axis])});
-    // Within 2^+-40 the area of a box, times 2^31 primitives, stays far from overflow, and so does that of a
-    // box 2^-20 as large from underflow.
+    // Within 2^+-40, the area of a box times 2^31 primitives is far from overflow, and the area of a box
+    // 2^-20 as large is far from underflow.
     if (!(largest > 0) || (largest <= 0x1p40f && largest >= 0x1p-40f)) return 1;
     return std::ldexp(1.0f, std::min(-std::ilogb(largest), 127));
 }

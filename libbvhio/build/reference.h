@@ -1,4 +1,4 @@
-// References: what builders sort instead of triangles, with the box arithmetic they need.
+// References, which builders sort instead of triangles, and their box arithmetic.
 #pragma once
 
 #include "core/buffer.h"
@@ -8,9 +8,9 @@
 
 namespace bvhio {
 
-/// A box as two groups of four floats, (-min, unused) and (max, unused): the union of two boxes is one
-/// maximum of eight floats, and the extent, like the centroid doubled, one sum or difference of four. The
-/// unused lanes hold anything; nothing reads them.
+/// A box as two groups of four floats, (-min, unused) and (max, unused). So the union of two boxes is one
+/// maximum of eight floats, the extent is one sum of four floats, and the doubled centroid is one difference.
+/// The unused lanes may hold anything; nothing reads them.
 struct alignas(32) Box {
     float negatedMin[4];
     float max[4];
@@ -39,7 +39,7 @@ struct alignas(32) Box {
         const float x = extent(0), y = extent(1), z = extent(2);
         return x * y + y * z + z * x;
     }
-    /// 0 - v, not -v: a minimum of 0 must not become -0.
+    /// Uses 0 - v, not -v: a minimum of 0 must not become -0.
     Aabb toAabb() const {
         return {{0 - negatedMin[0], 0 - negatedMin[1], 0 - negatedMin[2]}, {max[0], max[1], max[2]}};
     }
@@ -52,12 +52,12 @@ struct alignas(32) Reference {
     float max[3];
     uint32_t unused;
 
-    /// Twice the centroid of the box.
+    /// Returns twice the centroid of the box.
     float centroid(int axis) const { return max[axis] - negatedMin[axis]; }
 };
 static_assert(sizeof(Reference) == sizeof(Box));
 
-/// The union of what `boundsOf(begin, end)` gives for chunks of `count` items.
+/// Returns the union of the boxes that `boundsOf(begin, end)` returns for chunks of `count` items.
 template <class BoundsOf>
 Box boundsOfChunks(size_t count, const BoundsOf& boundsOf) {
     constexpr size_t kGrain = 1 << 13;
@@ -69,18 +69,19 @@ Box boundsOfChunks(size_t count, const BoundsOf& boundsOf) {
     return bounds;
 }
 
-/// The bounds of the doubled centroids of a run of references.
+/// Returns the bounds of the doubled centroids of a run of references.
 Box centroidBounds(const Reference* references, size_t count);
 
-/// 1, or the power of two that brings coordinates so large or small that areas could leave the range of a
-/// float to about 1.
+/// Returns the factor for coordinates with which areas stay in the range of a float: 1, or the power of two
+/// that brings very large or very small coordinates to about 1.
 float areaScale(const Box& bounds);
 
-/// Makes the references of all triangles, in order, with room for `room` more behind them, and their bounds.
-/// Returns true when the boxes are scaled (areaScale is not 1), and the tree's boxes need refitting.
+/// Makes the references of all triangles, in order, with space for `room` more after them, and computes their
+/// bounds. Returns true if the boxes are scaled (areaScale is not 1), so that the boxes of the tree need
+/// refitting.
 bool makeReferences(const Scene& scene, Buffer<Reference>& references, Box& bounds, size_t room = 0);
 
-/// The nodes of `bvh` with boxes recomputed from the triangles.
+/// Returns the nodes of `bvh` with boxes recomputed from the triangles.
 SharedArray<Node> refitted(const Scene& scene, const Bvh& bvh);
 
 }  // namespace bvhio

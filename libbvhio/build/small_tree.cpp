@@ -1,5 +1,5 @@
-// Dynamic programming over all subsets: there are 15 of four primitives, and 25 ways to split them. A subset
-// is a mask.
+// Dynamic programming over all subsets of the primitives: four primitives have 15 subsets, and 25 ways to
+// split them. A subset is a mask.
 
 #include "build/small_tree.h"
 
@@ -22,7 +22,7 @@ using FourV = hn::Vec<Four>;
 constexpr uint32_t kSets = 1 << kSmallTree;
 constexpr uint8_t kSize[kSets] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 
-/// Boxes and half areas of all subsets.
+/// Computes the boxes and half areas of all subsets.
 void measure(const Reference* references, uint32_t count, Box* bounds, float* areas) {
     const Four d;
     alignas(16) float extents[kSets][4];
@@ -49,7 +49,7 @@ void measure(const Reference* references, uint32_t count, Box* bounds, float* ar
     }
 }
 
-/// The best tree over each subset: its cost, and the part that goes left, 0 for a leaf.
+/// The best tree over each subset: its cost, and the subset that goes left (0 for a leaf).
 struct Plans {
     float costs[kSets];
     uint8_t lefts[kSets];
@@ -65,7 +65,7 @@ void plan(const float* areas, const LeafRule& rule, Plans& plans) {
             plans.lefts[set] = 0;
             continue;
         }
-        // The left side holds the lowest primitive, so that mirror images count once.
+        // The left side always has the lowest primitive, so that mirror images are tried once.
         float best = plans.costs[lowest] + plans.costs[rest];
         uint32_t bestLeft = lowest;
         for (uint32_t others = (rest - 1) & rest; others != 0; others = (others - 1) & rest) {
@@ -82,7 +82,7 @@ void plan(const float* areas, const LeafRule& rule, Plans& plans) {
     }
 }
 
-/// Writes out the plan for a subset.
+/// Writes the planned tree over a subset.
 struct Writer {
     const Reference* references;
     const Box* bounds;

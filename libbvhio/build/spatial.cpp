@@ -1,16 +1,16 @@
 // SAH with spatial splits: M. Stich, H. Friedrich, A. Dietrich, "Spatial Splits in Bounding Volume
-// Hierarchies", HPG 2009. Where the sides of the best object split overlap, planes that cut triangles in two
-// are tried too; a triangle that is cheaper whole on one side stays whole ("reference unsplitting").
-// Departures:
-// - One budget of extra references for the whole tree, the array's spare room, takes the place of the paper's
-//   bound on overlaps. A split takes what it needs of its node's share; the rest is divided in proportion to
-//   the sizes of the boxes on either side, since large boxes gain most by cutting, and a subtree's leftovers
-//   go to its neighbour. So the tree depends on the input alone.
-// - Parts are bounded by clipping the triangle to the part's whole box, not to one plane
-// (core/clip_triangle).
-// - Unsplitting compares with the sides as they are with all cuts, in the order of the references.
-// - The rest is as in the default builder: object splits over bins, subtrees by tasks, ranges of a few
-//   references solved exactly, leaves decided bottom-up (object_split_simd, small_tree, top_down).
+// Hierarchies", HPG 2009. If the sides of the best object split overlap, planes that cut triangles in two are
+// tried too. A triangle that is cheaper whole on one side stays whole ("reference unsplitting"). Departures:
+//
+// - The whole tree has one budget of extra references, the spare room of the array, instead of the paper's
+//   bound on overlaps. A split takes what it needs of its node's share. The rest is divided in proportion to
+//   the sizes of the boxes on each side, since large boxes gain most from cuts, and what a subtree does not
+//   use goes to its neighbour. So the tree depends only on the input.
+// - Parts are bounded by clipping the triangle to the whole box of the part, not to one plane
+//   (core/clip_triangle).
+// - Unsplitting compares with the sides after all cuts, in the order of the references.
+// - The rest is as in the default builder: object splits over bins, subtrees by tasks, exact solutions for
+//   ranges of a few references, and leaves decided bottom-up (object_split_simd, small_tree, top_down).
 
 #include "build/spatial.h"
 
@@ -31,13 +31,13 @@ namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Overlap of an object split's sides, relative to their parent's area, from which cuts are tried. Few of
-/// those tried for less pay; where references are few, fewer still.
+/// Returns the least overlap of an object split's sides, relative to their parent's area, from which cuts are
+/// tried. With less overlap few cuts gain anything, and even fewer with few references.
 float minOverlap(uint32_t count) {
     return count < 256 ? 0.3f : 0.1f;
 }
 
-/// Slabs per axis by default: many where a node is wide, few where references are.
+/// Returns the default number of slabs per axis: few for few references.
 uint32_t defaultSlabs(uint32_t count) {
     return count >= 1u << 12 ? 32 : count >= 32 ? 16 : 8;
 }
@@ -67,7 +67,7 @@ float overlapArea(const Box& a, const Box& b) {
     return both.halfArea();
 }
 
-/// How much of the room for more references these should have: the sum of their boxes' extents.
+/// Returns the demand of references for spare room: the sum of the extents of their boxes.
 float demandOf(const Reference* references, uint32_t count) {
     const Four d;
     const FourV three = firstThree();
@@ -82,7 +82,8 @@ float demandOf(const Reference* references, uint32_t count) {
     return lanes[0] + lanes[1] + lanes[2];
 }
 
-/// A reference that a plane cuts, and its parts on both sides; one of them is empty if it stays whole.
+/// A reference that a plane cuts, and its parts on both sides. One part is empty if the reference stays
+/// whole.
 struct Crossing {
     Reference whole;
     Box parts[2];
@@ -91,7 +92,7 @@ struct Crossing {
 
 class SpatialSplitter {
   public:
-    /// `bins` per axis, of centroids and of space; 0 = by the number of references.
+    /// `bins` is the number of bins per axis, of centroids and of space; 0 = by the number of references.
     SpatialSplitter(const Scene& scene, uint32_t bins) : scene_(scene), bins_(bins) {}
 
     bool split(const ReferenceArrays& references, const Range& range, Range& left, Range& right,
@@ -108,10 +109,11 @@ class SpatialSplitter {
     }
 
   private:
-    /// Cuts a range if that costs less than its object split, whose sides `left` and `right` describe. Leaves
-    /// these as they are if not.
+    /// Cuts a range if that costs less than its object split, whose sides are `left` and `right`. If not,
+    /// leaves them as they are. Returns whether it did.
     bool splitSpace(const ReferenceArrays& references, const Range& range, Range& left, Range& right,
                     bool parallel) const {
+        // Find a plane, if there is room for more references and the object split is bad enough.
         if (range.capacity == range.count) return false;
         if (overlapArea(left.bounds, right.bounds) <= minOverlap(range.count) * range.bounds.halfArea())
             return false;
@@ -122,12 +124,13 @@ class SpatialSplitter {
         if (!findSpatialSplit(scene_, references.at(range), range.count, range.capacity, split)) return false;
         if (!(split.plane.cost < objectCost)) return false;
 
+        // Move the references; decide which of those that the plane cuts stay whole; then place the parts.
         Buffer<Crossing> crossings(split.plane.leftCount + split.plane.rightCount - range.count);
         Range sides[2];
         moveWholes(references, range, split, crossings, sides);
         if (!decide(split.plane, crossings, sides)) return false;
         for (int side = 0; side < 2; ++side) {
-            // Behind the whole references on the left, before those on the right.
+            // Parts come after the whole references on the left, and before those on the right.
             Reference* to = side == 0 ? references.left(range) + (range.count - split.plane.rightCount)
                                       : references.right(range, sides[1].count);
             for (size_t i = 0; i < crossings.size(); ++i) {
@@ -141,8 +144,8 @@ class SpatialSplitter {
         return true;
     }
 
-    /// Moves the references that the plane leaves whole, and cuts the others; sets the bounds of the sides
-    /// without these.
+    /// Moves the references that the plane does not cut, and cuts the others. Sets the bounds of the sides to
+    /// those of the whole references.
     void moveWholes(const ReferenceArrays& references, const Range& range, const SpatialSplit& split,
                     Buffer<Crossing>& crossings, Range (&sides)[2]) const {
         const Reference* source = references.at(range);
@@ -179,6 +182,7 @@ class SpatialSplitter {
         }
     }
 
+    /// Cuts a reference at a plane into its two parts.
     void cut(const Reference& reference, int axis, float at, Crossing& crossing) const {
         const Aabb box = boxOf(reference).toAabb();
         const Triangle triangle = scene_.triangle(reference.primitive);
@@ -192,8 +196,8 @@ class SpatialSplitter {
         }
     }
 
-    /// Decides who stays whole on which side: whatever costs least. Completes the bounds and counts of the
-    /// sides. False if nothing would be left on one side.
+    /// Decides for each cut reference whether it stays whole on one side, by least cost. Completes the bounds
+    /// and counts of the sides. Returns false if nothing would be left on one side.
     static bool decide(const SpatialPlane& plane, Buffer<Crossing>& crossings, Range (&sides)[2]) {
         sides[0].count = plane.leftCount;
         sides[1].count = plane.rightCount;
@@ -220,7 +224,7 @@ class SpatialSplitter {
                     crossing.parts[1 - keep] = Box::empty();
                     bounds[keep].extend(whole);
                 }
-            } else {  // its box crosses the plane, the triangle's part in the box does not
+            } else {  // the box crosses the plane, but the triangle's part in the box does not
                 keep = crossing.has(1);
                 if (!crossing.has(keep)) crossing.parts[keep] = whole;
                 if (sides[1 - keep].count == 1) return false;
@@ -249,7 +253,7 @@ class SpatialSplitter {
 Bvh build(const Scene& scene, const BuildOptions& options) {
     SpatialSplitter splitter(scene, options.bins);
     const double triangles = double(scene.triangles.size());
-    // Twice as many nodes as references must have indices.
+    // There are twice as many nodes as references, and each needs an index.
     const double room = std::min(triangles * double(options.splitBudget), 0x7FFFFFFF - triangles);
     return TopDownBuild<SpatialSplitter>(options, splitter, uint32_t(std::max(room, 0.0))).build(scene);
 }

@@ -1,4 +1,4 @@
-// SAH with spatial splits (SBVH): triangles may be cut between nodes.
+// SAH with spatial splits (SBVH), which may cut a triangle into parts for several nodes.
 #pragma once
 
 #include "build/builders.h"
@@ -7,8 +7,8 @@ namespace bvhio {
 
 inline constexpr float kMaxSplitBudget = 16;
 
-/// The tree has at most options.splitBudget more references than triangles, per triangle. Throws Error{usage}
-/// when options.bins is 1 or above kMaxBins, or options.splitBudget is not from 0 to kMaxSplitBudget.
+/// Builds a tree with at most options.splitBudget extra references per triangle. Throws Error{usage} if
+/// options.bins is 1 or above kMaxBins, or options.splitBudget is not from 0 to kMaxSplitBudget.
 Bvh buildSpatial(const Scene& scene, const BuildOptions& options);
 
 }  // namespace bvhio

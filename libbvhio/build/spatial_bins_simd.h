@@ -1,5 +1,5 @@
-// Bins of space along the three axes: references are cut where they cross from one to the next, and the best
-// plane between bins is a candidate for a spatial split. Included once for each SIMD target.
+// Bins of space (slabs) along the three axes. References are cut where they cross from one slab to the next,
+// and the best plane between slabs is a candidate for a spatial split. Included once for each SIMD target.
 #if defined(BVHIO_BUILD_SPATIAL_BINS_SIMD_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_BUILD_SPATIAL_BINS_SIMD_H
 #undef BVHIO_BUILD_SPATIAL_BINS_SIMD_H
@@ -34,12 +34,12 @@ struct Slabs {
             step[axis] = wide ? extent / float(slabs) : 0;
         }
     }
-    /// The plane between slabs i - 1 and i.
+    /// Returns the plane between slabs i - 1 and i.
     HWY_INLINE float plane(int axis, uint32_t i) const { return origin[axis] + float(i) * step[axis]; }
 };
 
-/// The slabs that a reference starts and ends in, axis by axis. A reference that only touches the plane to
-/// the next slab does not enter it.
+/// The slabs in which a reference starts and ends, axis by axis. A reference that only touches the plane to
+/// the next slab does not enter that slab.
 struct SlabRange {
     alignas(16) int32_t first[4], last[4];
 };
@@ -65,8 +65,8 @@ HWY_INLINE SlabRange slabsOf(const Reference& reference, const Slabs& slabs) {
     return range;
 }
 
-/// What falls into each slab, axis by axis: the union of the parts' boxes, and how many references start and
-/// end there.
+/// The contents of each slab, axis by axis: the union of the boxes of parts, and the numbers of references
+/// that start and end there.
 struct SpatialBins {
     alignas(64) float boxes[3 * kMaxSlabs][8];
     uint32_t starts[3 * kMaxSlabs], ends[3 * kMaxSlabs];
@@ -87,12 +87,12 @@ struct SpatialBins {
     }
 };
 
-/// A triangle prepared to be cut along any axis.
+/// A triangle, prepared for cuts along any axis.
 struct Corners {
     alignas(32) float at[3][8];        // the corners as boxes
     alignas(32) float edges[3][8];     // from corner i to corner i + 1
-    alignas(16) float inverses[3][4];  // 1 / the edge's extent on each axis, 0 if it has none
-    uint8_t orders[3];                 // by axis: the bits of corner i + 1 < corner i
+    alignas(16) float inverses[3][4];  // 1 / the edge's extent on each axis; 0 if the extent is 0
+    uint8_t orders[3];                 // by axis: bit i is set if corner i + 1 < corner i
 
     HWY_INLINE Corners(const Scene& scene, uint32_t triangle) {
         const Four d;
@@ -125,9 +125,10 @@ struct Corners {
 };
 
 /// By Corners::orders: the lowest, middle and highest corner, then the edges that join the lowest to the
-/// highest, the lowest to the middle and the middle to the highest. All three edges can't fall, or rise.
+/// highest, the lowest to the middle and the middle to the highest. The three edges cannot all fall, or all
+/// rise.
 constexpr uint8_t kOrders[8][6] = {
-    {0, 1, 2, 2, 0, 1},  // none falls: the corners are equal
+    {0, 1, 2, 2, 0, 1},  // no edge falls: the corners are equal
     {1, 2, 0, 0, 1, 2},  // 1 < 0, 1 <= 2, 2 <= 0
     {2, 0, 1, 1, 2, 0},  // 0 <= 1, 2 < 1, 2 <= 0
     {2, 1, 0, 2, 1, 0},  // 2 < 1 < 0
@@ -137,9 +138,9 @@ constexpr uint8_t kOrders[8][6] = {
     {0, 1, 2, 2, 0, 1},
 };
 
-/// Adds to each of the slabs `first` to `last` of an axis the box of the reference's part there: of the
-/// triangle between the slab's planes, within the reference's box. The boxes guide the choice of a plane and
-/// are not conservative.
+/// Adds to each of the slabs `first` to `last` of an axis the box of the reference's part there: the part of
+/// the triangle between the slab's planes and inside the reference's box. The boxes only guide the choice of
+/// a plane, and are not conservative.
 HWY_INLINE void addParts(const Corners& corners, const Reference& reference, int axis, uint32_t first,
                          uint32_t last, const Slabs& slabs, float (*boxes)[8]) {
     const uint8_t* order = kOrders[corners.orders[axis]];
@@ -147,7 +148,7 @@ HWY_INLINE void addParts(const Corners& corners, const Reference& reference, int
                 *highCorner = corners.at[order[2]];
     const float a = lowCorner[4 + axis], b = middleCorner[4 + axis], c = highCorner[4 + axis];
     const BoxV low = BoxV::load(lowCorner), middle = BoxV::load(middleCorner), high = BoxV::load(highCorner);
-    // Along each edge, what a step of 1 on the axis adds.
+    // The change along each edge for a step of 1 on the axis.
     const auto slope = [&](uint8_t edge) HWY_ATTR {
         return BoxV::load(corners.edges[edge]) * corners.inverses[edge][axis];
     };
@@ -183,8 +184,8 @@ HWY_INLINE void addParts(const Corners& corners, const Reference& reference, int
     add(last, unite(from, c <= end ? high : b > end ? cutBelow(end) : cutAbove(end)));
 }
 
-/// Adds the boxes of references, or of their parts, to the slabs they are in, and counts where they start and
-/// end.
+/// Adds the boxes of references, or of their parts, to the slabs that they are in, and counts their starts
+/// and ends.
 void fillSlabs(const Scene& scene, const Reference* references, uint32_t count, const Slabs& slabs,
                SpatialBins& bins) {
     for (uint32_t i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// The best spatial split of a range's references. Included once for each SIMD target.
+// Finds the best spatial split of a range's references. Included once for each SIMD target.
 #if defined(BVHIO_BUILD_SPATIAL_SPLIT_SIMD_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_BUILD_SPATIAL_SPLIT_SIMD_H
 #undef BVHIO_BUILD_SPATIAL_SPLIT_SIMD_H
@@ -16,8 +16,8 @@ namespace bvhio {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// References that end in slabs up to `lastLeft` go left, those that start beyond go right, the others are
-/// cut.
+/// References that end in slabs up to `lastLeft` go left. Those that start in later slabs go right. The
+/// others are cut.
 struct SpatialPlane {
     float cost = kInfinity;
     int axis = -1;
@@ -25,7 +25,8 @@ struct SpatialPlane {
     uint32_t leftCount = 0, rightCount = 0;
 };
 
-/// A plane between slabs, and how many references are whole on the left and cut before each chunk of `grain`.
+/// A plane between slabs. For each chunk of `grain` references, the chunks before it have `leftBefore` whole
+/// references on the left and `crossingBefore` cut ones.
 struct SpatialSplit {
     struct Chunk {
         uint32_t leftBefore = 0, crossingBefore = 0;
@@ -49,7 +50,7 @@ HWY_INLINE Side sideOf(const Reference& reference, const SpatialSplit& split) {
                                                                 : Side::both;
 }
 
-/// Whether a plane leaves something on each side, fewer than all, and no more than fit.
+/// Returns whether a plane gives each side at least one reference and fewer than all, and both together fit.
 HWY_INLINE bool mayCut(uint32_t leftCount, uint32_t rightCount, uint32_t count, uint32_t capacity) {
     return leftCount > 0 && rightCount > 0 && leftCount < count && rightCount < count &&
            leftCount + rightCount <= capacity;
@@ -61,7 +62,7 @@ HWY_INLINE float halfArea(BoxV bounds) {
     return box.halfArea();
 }
 
-/// The plane of least SAH among those that may cut, the first of equals.
+/// Returns the plane of least SAH cost among those that may cut; of equals, the first.
 SpatialPlane bestSpatialPlane(const SpatialBins& bins, uint32_t count, uint32_t capacity) {
     SpatialPlane best;
     float rightAreas[kMaxSlabs];
@@ -86,10 +87,11 @@ SpatialPlane bestSpatialPlane(const SpatialBins& bins, uint32_t count, uint32_t 
     return best;
 }
 
-/// Finds the best plane between the split's slabs that makes at most `capacity` references of `count`. False
-/// when there is none.
+/// Finds the best plane between the split's slabs that turns `count` references into at most `capacity`.
+/// Returns false if there is no such plane.
 bool findSpatialSplit(const Scene& scene, const Reference* references, uint32_t count, uint32_t capacity,
                       SpatialSplit& split) {
+    // Fill the slabs, chunk by chunk.
     const size_t chunkCount = (count + split.grain - 1) / split.grain;
     SpatialBins all;
     Buffer<SpatialBins> chunks(chunkCount > 1 ? chunkCount : 0);
@@ -106,6 +108,7 @@ bool findSpatialSplit(const Scene& scene, const Reference* references, uint32_t 
     split.plane = bestSpatialPlane(all, count, capacity);
     if (split.plane.axis < 0) return false;
 
+    // Count the references on the left and the cut ones before each chunk.
     split.chunks.resize(chunkCount);
     SpatialSplit::Chunk before;
     for (size_t i = 0; i < chunkCount; ++i) {

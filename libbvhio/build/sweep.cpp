@@ -1,8 +1,8 @@
 // Full-sweep SAH: every plane between two centroids on every axis is tried (MacDonald and Booth 1990,
-// "Heuristics for ray tracing using space subdivision", as a sweep over sorted centroids: Wald, Boulos and
+// "Heuristics for ray tracing using space subdivision"; as a sweep over sorted centroids: Wald, Boulos and
 // Shirley 2007, "Ray tracing deformable scenes using dynamic bounding volume hierarchies"). References are
-// sorted once for each axis; splits keep all three orders, so that the time is n log n. Small ranges and
-// leaves are as in the default builder (top_down).
+// sorted once for each axis, and splits keep all three orders, so the time is n log n. Small ranges and
+// leaves are handled as in the default builder (top_down).
 
 #include "build/sweep.h"
 
@@ -32,15 +32,15 @@ struct Plane {
     uint32_t axis = 0, leftCount = 0;
 };
 
-/// Half areas of four boxes given by their extents, lane by lane.
+/// Returns the half areas of four boxes, lane by lane, from their extents.
 HWY_INLINE FourV halfAreas(const float (*extents)[4]) {
     FourV x, y, z, unused;
     hn::LoadInterleaved4(Four(), extents[0], x, y, z, unused);
     return hn::Add(hn::Add(hn::Mul(x, y), hn::Mul(y, z)), hn::Mul(z, x));
 }
 
-/// The plane of least SAH over references in order, the first of equals. `areas` is room for count + 4
-/// floats.
+/// Returns the plane of least SAH cost over references in order; of equals, the first. `areas` has space for
+/// count + 4 floats.
 Plane bestPlane(const Reference* references, uint32_t count, float* areas) {
     const Four d;
     alignas(16) float extents[4][4];
@@ -49,7 +49,7 @@ Plane bestPlane(const Reference* references, uint32_t count, float* areas) {
         box = unite(box, BoxV::load(reinterpret_cast<const float*>(references + i)));
         hn::Store(hn::Add(box.low(), box.high()), d, extents[lane]);
     };
-    // areas[i]: of the box around references i and up.
+    // Sweep from the right: areas[i] is the half area of the box around references i and up.
     BoxV right = BoxV::empty();
     const uint32_t groups = (count + 3) / 4;
     for (uint32_t group = groups; group-- > 0;) {
@@ -57,8 +57,10 @@ Plane bestPlane(const Reference* references, uint32_t count, float* areas) {
         hn::StoreU(halfAreas(extents), d, areas + 4 * group);
     }
     areas[4 * groups] = kInfinity;
-    // The plane behind reference i: i + 1 on the left. Behind the last one the right side's area is infinite,
-    // and behind none both sides', so that the cost is no number or infinite.
+
+    // Sweep from the left. The plane after reference i has i + 1 references on the left. After the last
+    // reference the right side's area is infinite, and after that both areas are, so the cost is infinite or
+    // not a number.
     const hn::RebindToSigned<Four> di;
     BoxV left = BoxV::empty();
     const FourV total = hn::Set(d, float(count)), firstCounts = hn::Iota(d, 1);
@@ -73,6 +75,8 @@ Plane bestPlane(const Reference* references, uint32_t count, float* areas) {
         bestCosts = hn::IfThenElse(better, costs, bestCosts);
         bestGroups = hn::IfThenElse(hn::RebindMask(di, better), hn::Set(di, int32_t(group)), bestGroups);
     }
+
+    // The best of the four lanes.
     alignas(16) float laneCosts[4];
     alignas(16) int32_t laneGroups[4];
     hn::Store(bestCosts, d, laneCosts);
@@ -86,7 +90,7 @@ Plane bestPlane(const Reference* references, uint32_t count, float* areas) {
     return best;
 }
 
-/// The bounds of a run, on whose references it leaves a mark.
+/// Marks the references of a run, and returns the run's bounds.
 Box markAndBound(const Reference* references, size_t count, uint8_t mark, uint8_t* marks) {
     BoxV bounds = BoxV::empty();
     for (size_t i = 0; i < count; ++i) {
@@ -98,7 +102,7 @@ Box markAndBound(const Reference* references, size_t count, uint8_t mark, uint8_
     return box;
 }
 
-/// Copies references to where their marks say (1: right), in order.
+/// Copies references to the side that their marks name (1: right), in order.
 void partition(const Reference* references, uint32_t count, const uint8_t* marks, Reference* left,
                Reference* right) {
     for (uint32_t i = 0; i < count; ++i) {
@@ -127,7 +131,8 @@ class SweepSplitter {
 
     bool split(const ReferenceArrays& references, const Range& range, Range& left, Range& right,
                bool parallel) const {
-        // Boxes without area, on a line or a point, have no SAH to go by; nor have coincident centroids.
+        // The SAH cannot compare planes if boxes have no area (all on a line or a point), or if centroids
+        // coincide.
         if (!(range.bounds.halfArea() > std::numeric_limits<float>::min())) return false;
         Plane planes[kOrders];
         const auto sweep = [&](uint32_t axis) {
@@ -146,7 +151,7 @@ class SweepSplitter {
         return true;
     }
 
-    /// Along the axis on which centroids spread most.
+    /// Halves a range along the axis on which its centroids spread most.
     void halve(const ReferenceArrays& references, const Range& range, Range& left, Range& right,
                bool parallel) const {
         Plane plane;
@@ -164,7 +169,7 @@ class SweepSplitter {
     }
 
   private:
-    /// Writes references in the order of their centroids along an axis, ties by primitive: a radix sort.
+    /// Writes references in the order of their centroids along an axis, ties by primitive, by a radix sort.
     static void sortAlong(int axis, const Reference* references, uint32_t count, Reference* sorted) {
         constexpr uint32_t kDigit = 11, kPasses = 3, kValues = 1 << kDigit;
         struct Key {
@@ -173,7 +178,7 @@ class SweepSplitter {
         Buffer<Key> buffers[2] = {Buffer<Key>(count), Buffer<Key>(count)};
         std::vector<uint32_t> places(kPasses * kValues);
         for (uint32_t i = 0; i < count; ++i) {
-            // Ordered as unsigned integers as the floats are.
+            // These unsigned integers have the order of the floats.
             const auto bits = std::bit_cast<uint32_t>(references[i].centroid(axis) + 0.0f);
             const uint32_t value = bits ^ (bits >> 31 ? ~0u : 1u << 31);
             buffers[0][i] = {value, i};
@@ -205,6 +210,7 @@ class SweepSplitter {
         group.wait();
     }
 
+    /// Moves the references of both sides, in all orders.
     void divide(const ReferenceArrays& references, const Range& range, const Plane& plane, Range& left,
                 Range& right, bool parallel) const {
         left.count = plane.leftCount;
@@ -233,7 +239,8 @@ class SweepSplitter {
         return bounds;
     }
 
-    mutable Buffer<uint8_t> marks_;  // by primitive; ranges that are divided at the same time share none
+    mutable Buffer<uint8_t>
+        marks_;  // by primitive; ranges that are divided at the same time share no primitives
 };
 
 Bvh build(const Scene& scene, const BuildOptions& options) {

@@ -6,7 +6,7 @@
 namespace bvhio {
 namespace {
 
-/// Orders references by centroid along an axis; no two are equal.
+/// Orders references by centroid along an axis, and then by primitive, so that no two keys are equal.
 struct CentroidKey {
     float centroid;
     uint32_t primitive;
@@ -20,13 +20,13 @@ void extend(Range& range, const Reference& reference) {
                          {reference.max[0], reference.max[1], reference.max[2], 0}});
 }
 
-/// Places parts depth first.
+/// Joins parts in depth-first order.
 class Gathering {
   public:
     Gathering(const ReferenceArrays& references, Buffer<Node>& nodes)
         : references_(references), nodes_(nodes) {}
 
-    /// Places the nodes below `node`, which has its final place, at `nextNode_` and on.
+    /// Places the nodes below `node` from `nextNode_` on. `node` itself is in its final place.
     void place(const TreePart& part, Node& node) {
         const uint32_t to = nextNode_;
         if (part.isSubtree()) {
@@ -57,7 +57,7 @@ class Gathering {
         });
     }
 
-    /// Closes the gaps that unused capacity leaves.
+    /// Returns the primitives without the gaps of unused capacity.
     Buffer<uint32_t> packed(Buffer<uint32_t> primitives) const {
         if (nextPrimitive_ == primitives.size()) return primitives;
         Buffer<uint32_t> all(nextPrimitive_);
@@ -70,13 +70,13 @@ class Gathering {
     }
 
   private:
-    /// A subtree, and where its nodes and primitives go.
+    /// A subtree, and the places of its nodes and primitives.
     struct Subtree {
         const TreePart* part;
         uint32_t node, primitive;
     };
 
-    /// Children and primitives are counted from the start of the subtree's.
+    /// Copies nodes of a subtree. Their indices count from the start of the subtree's nodes and primitives.
     static void copy(const Reference* kept, uint32_t count, const Subtree& subtree, Node* nodes) {
         for (uint32_t i = 0; i < count; ++i) {
             std::memcpy(static_cast<void*>(nodes + i), kept + i, sizeof(Node));
@@ -117,7 +117,7 @@ void splitAtMedian(const ReferenceArrays& references, const Range& range, Range&
         for (uint32_t i = 0; i < range.count; ++i) keys[i] = {source[i].centroid(axis), source[i].primitive};
         std::nth_element(keys.begin(), keys.begin() + half, keys.end());
         const CentroidKey first =
-            keys[half];  // of the right half: keys differ, so the halves do not depend on the library
+            keys[half];  // of the right half; all keys differ, so the halves do not depend on the library
         for (uint32_t i = 0; i < range.count; ++i)
             move(source[i], CentroidKey{source[i].centroid(axis), source[i].primitive} < first);
     } else {

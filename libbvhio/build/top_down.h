@@ -1,5 +1,5 @@
-// What top-down builders share: references to primitives, who builds which range in parallel, the bound on
-// depth, the leaf rule, and the final node array. A builder brings only its split.
+// The common part of top-down builders: references to primitives, parallel tasks, the limit on depth, the
+// leaf rule, and the final node array. A builder only provides its split.
 #pragma once
 
 #include <algorithm>
@@ -15,19 +15,19 @@
 
 namespace bvhio {
 
-/// A node to be: a run of references, and where it stands in the tree.
+/// A future node: a run of references, and its position in the tree.
 struct Range {
     Box bounds;
     uint32_t begin = 0, count = 0;
-    uint32_t place = 0, capacity = 0;  // the run is in [place, place + capacity): room for what splits add
-    float demand = 0;                  // the share of its parent's room that it should have
+    uint32_t place = 0, capacity = 0;  // the run is in [place, place + capacity), with room for splits to add
+    float demand = 0;                  // the share of its parent's room that it should get
     uint32_t depth = 0;
-    uint32_t side = 0;  // which of the two reference arrays holds the run now
+    uint32_t side = 0;  // the one of the two reference arrays that holds the run now
 };
 
-/// Two arrays of references: a split moves a run from one to the same place in the other, the left side to
-/// its start and the right side to its end, keeping the order within each. So a split streams, can be done in
-/// chunks, and its result depends on the input alone.
+/// Two arrays of references. A split moves a run from one array to the same place in the other, the left side
+/// to the start and the right side to the end, and keeps the order within each side. So a split streams
+/// through memory and can work in chunks, and its result depends only on the input.
 struct ReferenceArrays {
     Reference* sides[2];
 
@@ -36,7 +36,7 @@ struct ReferenceArrays {
     Reference* at(const Range& range, uint32_t order = 0) const {
         return sides[range.side] + order * stride + range.begin;
     }
-    /// Where a split moves the left side to, and a right side of `rightCount`.
+    /// Return the places to which a split moves the left side, and a right side of `rightCount`.
     Reference* left(const Range& range, uint32_t order = 0) const {
         return sides[range.side ^ 1] + order * stride + range.place;
     }
@@ -45,35 +45,36 @@ struct ReferenceArrays {
     }
 };
 
-/// True when a node may be split anywhere; otherwise it must be halved, so that the leaves stay within
+/// Returns whether a node may be split anywhere. If not, it must be halved, so that the leaves stay within
 /// kMaxDepth even if every split so far took off a single primitive.
 inline bool mayChooseSplit(const Range& range) {
     return range.depth + 1 + std::bit_width(range.count - 2) <=
            kMaxDepth;  // bit_width(n - 1) = log2 of n, rounded up
 }
 
-/// Halves a range by centroid along the longest axis of its centroids' box, ties by primitive; when all
-/// centroids coincide, by position. Each side gets half of the references whatever their coordinates.
+/// Halves a range by centroid along the longest axis of the box of its centroids, ties by primitive. If all
+/// centroids coincide, halves it by position. Each side gets half of the references, whatever their
+/// coordinates.
 void splitAtMedian(const ReferenceArrays& references, const Range& range, Range& left, Range& right);
 
-/// One part of the tree: a split done for all threads, or a subtree that one task built.
+/// A part of the tree: a split above the tasks, or a subtree that one task built.
 struct TreePart {
     // A split: the sibling pair below it.
     Node nodes[2];
     std::unique_ptr<TreePart> children[2];
-    // A subtree: its references' place, how many nodes it has below its root, and how many entries its
-    // leaves.
+    // A subtree: the place of its references, the number of nodes below its root, and the number of entries
+    // of its leaves.
     uint32_t place = 0, capacity = 0, nodeCount = 0, primitiveCount = 0;
 
     bool isSubtree() const { return !children[0]; }
 };
 
-/// Keeps a finished subtree's nodes where its references were: a tree over n leaves has at most 2 n - 2 nodes
-/// below its root, so they fit the n slots of each array.
+/// Stores the nodes of a finished subtree in the place of its references. A tree over n leaves has at most 2
+/// n - 2 nodes below its root, so the n slots of the two arrays have space for them.
 void keepNodes(const ReferenceArrays& references, const TreePart& subtree, const Node* nodes);
 
-/// Joins the parts into the canonical, depth-first tree. Each subtree's primitives are in `primitives` where
-/// its references were, counted from there by its leaves.
+/// Joins the parts into the canonical, depth-first tree. The primitives of each subtree are in `primitives`,
+/// at the place of its references; its leaves count from there.
 Bvh gather(const ReferenceArrays& references, const Node& root, const TreePart& parts,
            Buffer<uint32_t> primitives);
 
@@ -82,19 +83,19 @@ Bvh gather(const ReferenceArrays& references, const Node& root, const TreePart& 
 ///     bool split(const ReferenceArrays&, const Range&, Range& left, Range& right, bool parallel) const;
 ///
 /// which moves the references of both sides to the opposite array, fills in the bounds and counts of `left`
-/// and `right` (each at least 1), and may use all threads when `parallel`; or returns false when it finds no
-/// split, and the range is halved. It is called from several threads at once. Where the range's capacity has
-/// room, a triangle may have a part on both sides, if neither side gets as many references as the range; it
-/// then sets the sides' demands for the rest of the room.
+/// and `right` (each at least 1), and may use all threads if `parallel` is set. If it finds no split it
+/// returns false, and the range is halved. It is called from several threads at once. If the range's capacity
+/// has room, a triangle may have a part on both sides, as long as neither side gets as many references as the
+/// range; `split` then sets the demands of the sides for the rest of the room.
 ///
-/// A splitter may keep the references in several orders, one behind the other in the arrays. It then provides
+/// A splitter may keep the references in several orders, one after another in the arrays. It then provides
 ///
 ///     static constexpr uint32_t kOrders;
 ///     void makeOrders(const ReferenceArrays&, Range&);
 ///     void halve(const ReferenceArrays&, const Range&, Range& left, Range& right, bool parallel) const;
 ///
-/// where `makeOrders` is given the references of all triangles in order 0 and writes all orders to the
-/// opposite array, and `halve` does what splitAtMedian does for a single order.
+/// where `makeOrders` gets the references of all triangles in order 0 and writes all orders to the opposite
+/// array, and `halve` does for all orders what splitAtMedian does for a single one.
 template <class Splitter>
 class TopDownBuild {
   public:
@@ -105,7 +106,7 @@ class TopDownBuild {
           progress_(options.progress),
           room_(room) {}
 
-    /// The tree over a scene's triangles.
+    /// Builds the tree over a scene's triangles.
     Bvh build(const Scene& scene) && {
         const auto count = uint32_t(scene.triangles.size());
         if (progress_) progress_->start(count);
@@ -113,15 +114,15 @@ class TopDownBuild {
         Box bounds;
         const size_t places = (size_t(count) + room_) * kOrders;
         const bool rescaled = makeReferences(scene, references, bounds, places - count);
-        // Boxes of another scale than their triangles can't be split; and refitting would undo it.
+        // Boxes that are scaled, unlike their triangles, cannot be split; and refitting would undo splits.
         if (rescaled) room_ = 0;
         Bvh bvh = std::move(*this).build(std::move(references), count, bounds);
         if (rescaled) bvh.nodes = refitted(scene, bvh);
         return bvh;
     }
 
-    /// The tree over the first `count` references, within `bounds`; its primitives are theirs. The array has
-    /// places for all orders, with room.
+    /// Builds the tree over the first `count` references, whose bounds are `bounds`. Its primitives are those
+    /// of the references. The array has places for all orders, with room.
     Bvh build(Buffer<Reference> references, uint32_t count, const Box& bounds) && {
         Range range;
         range.bounds = bounds;
@@ -148,9 +149,10 @@ class TopDownBuild {
         else
             return 1u;
     }();
-    static constexpr uint32_t kSharedSplit = 1u << 16;  // from here on all threads work on one split
-    static constexpr uint32_t kTask = 1u << 12;         // up to here one task builds the whole subtree
+    static constexpr uint32_t kSharedSplit = 1u << 16;  // from this size, all threads work on one split
+    static constexpr uint32_t kTask = 1u << 12;         // up to this size, one task builds the whole subtree
 
+    /// Builds a part of the tree, by tasks.
     void buildPart(const Range& range, Node& node, TreePart& part) {
         if (range.count <= std::max(kTask, leafRule_.maxLeafSize)) return buildSubtree(range, node, part);
         Range sides[2];
@@ -164,7 +166,8 @@ class TopDownBuild {
         group.wait();
     }
 
-    /// What one task needs to build a subtree, close together to stay in its core's cache.
+    /// The data with which one task builds a subtree, close together so that it stays in the cache of one
+    /// core.
     struct Workspace {
         ReferenceArrays references;
         Node* nodes;  // pairs, depth first
@@ -173,6 +176,7 @@ class TopDownBuild {
         uint32_t primitiveCount;
     };
 
+    /// Builds a subtree in one task: copies its references to a workspace, and keeps the resulting nodes.
     void buildSubtree(const Range& range, Node& node, TreePart& part) {
         const size_t places = size_t(range.capacity) * kOrders;
         Buffer<Reference> references(places * 2);
@@ -196,8 +200,8 @@ class TopDownBuild {
         if (progress_) progress_->add(range.count);
     }
 
-    /// Builds the subtree of a range and returns its SAH cost, times areas. It becomes one leaf where that
-    /// costs no more.
+    /// Builds the subtree of a range, or a single leaf if that costs no more. Returns its SAH cost, not
+    /// divided by the root's area.
     float grow(Workspace& work, const Range& range, Node& node) {
         if (range.count <= kSmallTree && range.depth + range.count <= kMaxDepth + 1) {
             const uint32_t begin = work.primitiveCount;
@@ -205,6 +209,8 @@ class TopDownBuild {
             return buildSmallTree(work.references.at(range), range.count, leafRule_, node, work.nodes,
                                   work.nodeCount, work.primitives, begin);
         }
+
+        // Split the range, and build both sides.
         Range left, right;
         split(work.references, range, left, right, false);
         const float area = range.bounds.halfArea();
@@ -218,12 +224,14 @@ class TopDownBuild {
         right.capacity += unused;
         cost += grow(work, right, work.nodes[pair + 1]);
         node = {range.bounds.toAabb(), pair, 0};
+
+        // Replace the subtree by a leaf if that costs no more.
         if (range.count > leafRule_.maxLeafSize) return cost;
         const float leafCost = leafRule_.cost(area, range.count);
         if (!(leafCost <= cost)) return cost;
         work.nodeCount = pair;
         if (work.primitiveCount - firstPrimitive > range.count) {
-            // Parts of one triangle meet again.
+            // Keep each triangle once, where several of its parts meet again.
             uint32_t* const begin = work.primitives + firstPrimitive;
             std::sort(begin, work.primitives + work.primitiveCount);
             std::unique(begin, work.primitives + work.primitiveCount);
@@ -234,6 +242,7 @@ class TopDownBuild {
         return leafCost;
     }
 
+    /// Splits or halves a range, and gives the sides their places.
     void split(const ReferenceArrays& references, const Range& range, Range& left, Range& right,
                bool parallel) const {
         if (!mayChooseSplit(range) || !splitter_.split(references, range, left, right, parallel)) {
@@ -251,6 +260,7 @@ class TopDownBuild {
         left.side = right.side = range.side ^ 1;
     }
 
+    /// Returns the left side's share of the room that a split leaves.
     static uint32_t shareOfRoom(const Range& range, const Range& left, const Range& right) {
         const uint32_t room = range.capacity - left.count - right.count;
         if (room == 0) return 0;

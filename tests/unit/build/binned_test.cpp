@@ -21,7 +21,7 @@ TEST(Binned, refusesBinsOutOfRange) {
     EXPECT_GT(buildBinned(scene, most).nodeCount(), 1u);
 }
 
-// Two clusters far apart: any plane between them is found, whatever the bins, and the first split is it.
+// Two clusters far apart: for any number of bins, the first split must be a plane between them.
 TEST(Binned, splitsWhereTheSpaceIsEmpty) {
     std::vector<Triangle> triangles;
     for (int i = 0; i < 100; ++i) {
@@ -38,7 +38,7 @@ TEST(Binned, splitsWhereTheSpaceIsEmpty) {
     }
 }
 
-// One large triangle spans the box; all small ones share a bin of it, and still must be told apart.
+// One large triangle spans the box. All small triangles share one of its bins, and must still be separated.
 TEST(Binned, zoomsInWhenAllCentroidsShareABin) {
     std::vector<Triangle> triangles;
     for (int i = 0; i < 64; ++i) {
@@ -50,8 +50,8 @@ TEST(Binned, zoomsInWhenAllCentroidsShareABin) {
     BuildOptions options;
     options.maxLeafSize = 1;
     const Bvh bvh = buildBinned(scene, options);
-    // Parted from the large triangle at once, the rest costs next to nothing; halving would visit the large
-    // box 5 times.
+    // If the large triangle is separated at once, the rest costs almost nothing. Halving would visit the
+    // large box 5 times.
     EXPECT_LT(sahCost(bvh, {1, 1}), 3);
 }
 

@@ -11,12 +11,12 @@ Triangle pointAt(Vec3 p) {
     return {p, p, p};
 }
 
-/// The corner of [0, side]^3 that keeps a grid over it.
+/// Returns a triangle at the corner of [0, side]^3, which fixes the grid.
 Triangle cornerAt(float side) {
     return {{side, side, side}, {side, side, side}, {side, side, side}};
 }
 
-// The tree is that of the codes, not of the areas: x halves the cube first, though y would be cheaper.
+// The tree follows the codes, not the areas: x halves the cube first, although y would be cheaper.
 TEST(Lbvh, splitsWhereTheHighestBitChanges) {
     std::vector<Triangle> triangles{pointAt({0, 0, 0}), cornerAt(8)};
     for (const float x : {1.0f, 7.0f})
@@ -31,7 +31,7 @@ TEST(Lbvh, splitsWhereTheHighestBitChanges) {
     EXPECT_EQ(bvh.nodes[right.left()].bounds, (Aabb{{7, 1, 0}, {7, 1.5f, 0}}));
 }
 
-// Slots of pairs that end up inside leaves are used again: nothing is left over.
+// Slots of pairs that end up inside leaves are reused, so that no gaps remain.
 TEST(Lbvh, leavesNoGapsWhereSubtreesBecomeLeaves) {
     for (const float traversal : {0.01f, 0.5f, 1.2f, 100.0f})
         for (const uint32_t maxLeafSize : {1u, 3u, 8u, 10000u}) {
@@ -41,7 +41,7 @@ TEST(Lbvh, leavesNoGapsWhereSubtreesBecomeLeaves) {
             for (size_t i = 0; i < bvh.nodes.size(); ++i) {
                 if (i == 1 || !bvh.nodes[i].isLeaf()) continue;
                 ++leaves;
-                // Depth first, leaves own their triangles in turn.
+                // In depth-first order, each leaf's range follows the one before.
                 EXPECT_LE(bvh.nodes[i].primitiveCount, maxLeafSize);
                 primitives += bvh.nodes[i].primitiveCount;
             }
@@ -50,11 +50,11 @@ TEST(Lbvh, leavesNoGapsWhereSubtreesBecomeLeaves) {
         }
 }
 
-// Subtrees that different tasks build are joined as if one had built them.
+// Subtrees by different tasks give the same tree as a single task.
 TEST(Lbvh, doesNotShowWhereTheOrderWasCut) {
     const Scene scene = test::sphereScene(300, 200);
     const Bvh cut = buildLbvh(scene, {.costs = {0.001f, 1}});
-    // A larger limit on leaves makes one subtree of the whole scene; with these costs no leaf is that large.
+    // A larger limit on leaves makes the whole scene one subtree. With these costs no leaf gets that large.
     const Bvh whole = buildLbvh(scene, {.costs = {0.001f, 1}, .maxLeafSize = kMaxLeafSize * 2});
     ASSERT_EQ(cut.nodes.size(), whole.nodes.size());
     for (size_t i = 0; i < cut.nodes.size(); ++i) {

@@ -13,7 +13,7 @@
 namespace bvhio {
 namespace {
 
-/// Codes as sortCodes takes them: the lowest bit is free.
+/// Returns codes for sortCodes, in which the lowest bit is unused.
 std::vector<uint64_t> randomCodes(uint32_t count, uint64_t mask, uint64_t seed) {
     Random random(seed);
     std::vector<uint64_t> codes(count);
@@ -41,7 +41,7 @@ void expectSorted(const std::vector<uint64_t>& codes) {
     }
 }
 
-// Runs that fit the cache and that do not, of codes that differ in their high bits, low bits, or both.
+// Runs that fit the cache and runs that do not, of codes that differ in their high bits, low bits, or both.
 TEST(SortCodes, isStableForAnyNumberOfCodesThatDifferAnywhere) {
     for (const uint32_t count : {1u, 2u, 3u, 31u, 33u, 1000u, 8192u, 8193u, 20000u, 100000u})
         for (const uint64_t mask :
@@ -50,7 +50,7 @@ TEST(SortCodes, isStableForAnyNumberOfCodesThatDifferAnywhere) {
             ASSERT_NO_FATAL_FAILURE(expectSorted(randomCodes(count, mask, count))) << count << " " << mask;
 }
 
-// Many share all the digits that runs are distributed by, which would leave insertion with quadratic work.
+// Many codes share all digits by which runs are distributed. Insertion alone would then take quadratic time.
 TEST(SortCodes, copesWithCodesThatDifferOnlyFarBelowTheFirstDifference) {
     std::vector<uint64_t> codes = randomCodes(6000, 0xFFFFFFFE, 3);
     codes[5] |= uint64_t(1) << 62;
@@ -63,9 +63,9 @@ uint64_t spread(uint64_t cell) {
     return bits;
 }
 
-// x is the highest bit, then y, then z, and all 21 bits of each count.
+// The order of bits is x (highest), y, z, and all 21 bits of each matter.
 TEST(MortonOrder, interleavesTheBitsOfTheAxes) {
-    constexpr float kSide = 1 << 20;  // two cells a unit
+    constexpr float kSide = 1 << 20;  // two cells per unit
     std::vector<Triangle> triangles{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
                                     {{kSide, kSide, kSide}, {kSide, kSide, kSide}, {kSide, kSide, kSide}}};
     Random random(7);
@@ -90,12 +90,12 @@ TEST(MortonOrder, interleavesTheBitsOfTheAxes) {
               expected);
 }
 
-// The largest power of two that denormals can be scaled by is the largest of all: twice it is infinite, and
-// so were the grid's origin and extent.
+// Denormals are scaled by the largest power of two that a float can hold. Twice that is infinite, and once
+// made the grid's origin and extent infinite.
 TEST(MortonOrder, isTheSameAtAnyScale) {
     Scene scene = test::sphereScene(40, 20);
     std::vector<Vec3> vertices(scene.vertices.begin(), scene.vertices.end());
-    for (Vec3& v : vertices)  // few bits, which denormals hold too
+    for (Vec3& v : vertices)  // few bits, which denormals can hold, too
         v = {std::round(v.x * 0x1p10f) + 0.0f, std::round(v.y * 0x1p10f) + 0.0f,
              std::round(v.z * 0x1p10f) + 0.0f};
     scene.vertices = std::vector<Vec3>(vertices);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr PartnerOffsets kOffsets;
 
-// If two clusters called each other by different numbers, equal distances could send each to another one, and
-// no two would ever be joined.
+// If two clusters had different numbers for each other, with equal distances each could choose another
+// cluster, and no two would ever be joined.
 TEST(PlocSearch, partnersShareTheNumberAndNobodyHasItTwice) {
     for (uint32_t i = 1000; i < 1000 + 4 * kPartners; ++i) {
         std::set<int> offsets;
@@ -45,7 +45,8 @@ std::vector<uint8_t> found(const Buffer<Reference>& clusters) {
     return nearest;
 }
 
-// At the ends of the order and of chunks, and with numbers of clusters that fill no vector.
+// Tests the ends of the order and of chunks, and counts of clusters that are not a multiple of the vector
+// size.
 TEST(PlocSearch, findsTheLeastCommonBoxWithinTheRadius) {
     for (const uint32_t count : {2u, 3u, 15u, 16u, 17u, 33u, kSearchGrain - 1, kSearchGrain + 1, 3000u}) {
         const Scene scene = test::sceneOf(test::randomTriangles(count, 1, 0.3f, count));
@@ -59,7 +60,7 @@ TEST(PlocSearch, findsTheLeastCommonBoxWithinTheRadius) {
                 if (j != i) least = std::min(least, distance(clusters[i], clusters[j]));
             const uint32_t partner = i + uint32_t(kOffsets(i, nearest[i]));
             ASSERT_LT(partner, count);
-            // Equal but for the bits that hold the number.
+            // Equal except for the bits that hold the number.
             const auto expected = std::bit_cast<uint32_t>(least),
                        actual = std::bit_cast<uint32_t>(distance(clusters[i], clusters[partner]));
             ASSERT_EQ(actual / kPartners, expected / kPartners) << "cluster " << i << " of " << count;

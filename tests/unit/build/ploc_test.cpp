@@ -14,8 +14,8 @@ Triangle boxed(float x, float size) {
     return {{x, 0, 0}, {x + size, size, 0}, {x, 0, size}};
 }
 
-// Three groups along a line, far apart: whatever Morton order cuts through, each is joined before any two
-// are.
+// Three groups along a line, far apart: wherever the Morton order cuts, each group is joined before two
+// groups are joined.
 TEST(Ploc, joinsWhatIsNearFirst) {
     std::vector<Triangle> triangles;
     for (const float x : {0.0f, 49.0f, 100.0f})
@@ -23,14 +23,14 @@ TEST(Ploc, joinsWhatIsNearFirst) {
     BuildOptions options;
     options.maxLeafSize = 1;
     const Bvh bvh = buildPloc(test::sceneOf(triangles), options);
-    int narrow = 0;  // subtrees of one group, as wide as it
+    int narrow = 0;  // subtrees of one group, as wide as the group
     for (size_t i = 0; i < bvh.nodes.size(); ++i)
         narrow += i != 1 && bvh.nodes[i].bounds.extent().x > 1 && bvh.nodes[i].bounds.extent().x < 2;
     EXPECT_EQ(narrow, 3);
 }
 
-// Boxes that grow along the line: each finds the one before it, and only the first two each other. A round
-// for each triangle would take minutes.
+// Boxes that grow along the line: each box finds the box before it, and only the first two find each other.
+// One round per triangle would take minutes.
 TEST(Ploc, doesNotCreepAlongChains) {
     std::vector<Triangle> triangles;
     for (int i = 0; i < 100000; ++i) triangles.push_back(boxed(float(i), 10 + 0.01f * float(i)));
@@ -41,7 +41,7 @@ TEST(Ploc, doesNotCreepAlongChains) {
     EXPECT_LE(sahCost(bvh, {}), 1.2 * sahCost(buildBinned(scene, {}), {}));
 }
 
-// Groups within groups of ever halving distances make a tree deeper than allowed, which is balanced.
+// Nested groups with distances that halve again and again make too deep a tree, which must be balanced.
 TEST(Ploc, boundsTheDepth) {
     std::vector<Triangle> triangles;
     float x = 1e30f;
@@ -55,8 +55,8 @@ TEST(Ploc, boundsTheDepth) {
     }
 }
 
-// Both on surfaces, where splits from the root down are better above, and on parts of mixed sizes, where
-// joining is.
+// Tests both surfaces, where splits from the root down are better near the root, and parts of mixed sizes,
+// where joining is better.
 TEST(Ploc, costsLittleMoreThanBinned) {
     std::vector<Triangle> parts = test::randomTriangles(2000, 1, 0.01f);
     for (const Triangle& t : test::randomTriangles(200, 1, 0.3f, 2)) parts.push_back(t);

@@ -9,7 +9,7 @@
 namespace bvhio {
 namespace {
 
-// The last vertex of the array has no next one to read along: run with sanitizers.
+// After the last vertex of the array nothing may be read. Only sanitizers detect that.
 TEST(Reference, holdsItsTrianglesBox) {
     const Scene scene = test::gridScene(20, [](float x, float y) { return x * y - 7; });
     Buffer<Reference> references;
@@ -24,14 +24,14 @@ TEST(Reference, holdsItsTrianglesBox) {
             EXPECT_EQ(references[i].negatedMin[axis], -box.min[axis]);
             EXPECT_EQ(references[i].max[axis], box.max[axis]);
             EXPECT_EQ(references[i].centroid(axis), box.min[axis] + box.max[axis]);
-            // -0 would make unions depend on their order.
+            // With -0, unions would depend on their order.
             EXPECT_FALSE(references[i].negatedMin[axis] == 0 && std::signbit(references[i].negatedMin[axis]));
         }
     }
     EXPECT_EQ(bounds.toAabb(), whole);
 }
 
-// Areas of boxes 1e38 or 1e-30 across do not fit a float.
+// The areas of boxes 1e38 or 1e-30 across do not fit a float.
 TEST(Reference, rescalesExtremeScenesByAPowerOfTwo) {
     for (const float scale : {0x1p+120f, 0x1p-120f, 0x1p-140f}) {
         std::vector<Triangle> triangles = test::randomTriangles(20, 1, 0.1f);

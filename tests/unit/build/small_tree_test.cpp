@@ -10,7 +10,7 @@
 namespace bvhio {
 namespace {
 
-/// The least cost over every tree, by trying them all.
+/// Returns the least cost over all trees, by trying each.
 double leastCost(const Reference* references, uint32_t set, const LeafRule& rule) {
     Aabb box = Aabb::empty();
     uint32_t size = 0;
@@ -28,7 +28,7 @@ double leastCost(const Reference* references, uint32_t set, const LeafRule& rule
     return best;
 }
 
-/// The SAH cost of what was written.
+/// Returns the SAH cost of the tree that was written.
 double costOf(const Node& node, const std::vector<Node>& nodes, const LeafRule& rule) {
     if (node.isLeaf()) return rule.intersection * halfArea(node.bounds) * node.primitiveCount;
     return rule.traversal * halfArea(node.bounds) + costOf(nodes[node.left()], nodes, rule) +

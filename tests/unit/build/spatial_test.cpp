@@ -12,7 +12,7 @@
 namespace bvhio {
 namespace {
 
-/// Small triangles, and among them long thin ones, whose boxes are large: cutting these is all that helps.
+/// Returns small triangles, and among them long thin ones with large boxes: only cutting these helps.
 Scene straws(uint32_t count) {
     std::vector<Triangle> triangles = test::randomTriangles(count - count / 10, 1, 0.01f);
     for (const Triangle& t : test::randomTriangles(count / 10, 1, 0.5f, 2))
@@ -41,7 +41,7 @@ TEST(Spatial, cutsWhereItPays) {
     const Bvh bvh = buildSpatial(scene, {});
     EXPECT_GT(bvh.primitives.size(), scene.triangles.size());
     EXPECT_LT(sahCost(bvh, {}), 0.8 * binned);
-    // And where it doesn't, it doesn't.
+    // Where cuts cannot help, there must be none.
     const Scene flat = test::gridScene(60, [](float, float) { return 0.0f; });
     EXPECT_EQ(buildSpatial(flat, {}).primitives.size(), flat.triangles.size());
 }
@@ -60,7 +60,7 @@ TEST(Spatial, keepsToItsBudgetAndUsesIt) {
     }
 }
 
-// Cut in two and met again in one leaf, a triangle would be tested twice.
+// If both parts of a cut triangle were kept in one leaf, the triangle would be tested twice.
 TEST(Spatial, noLeafHoldsATriangleTwice) {
     for (const uint32_t maxLeafSize : {2u, 4u, 64u})
         for (const SahCosts costs : {SahCosts{1, 1}, SahCosts{20, 1}}) {
@@ -80,7 +80,7 @@ TEST(Spatial, noLeafHoldsATriangleTwice) {
         }
 }
 
-// Each point of a triangle must be in one of its leaves' boxes, or rays miss it.
+// Each point of a triangle must be in the box of one of its leaves. Otherwise rays miss it.
 TEST(Spatial, leavesHoldTheirTrianglesTogether) {
     for (const float scale : {1.0f, 1e-8f, 1e8f}) {
         Scene scene = straws(2000);
@@ -113,7 +113,7 @@ TEST(Spatial, leavesHoldTheirTrianglesTogether) {
     }
 }
 
-// Boxes around whole triangles are valid for a tree with parts, only larger.
+// Boxes around whole triangles are also valid for a tree with parts, but larger.
 TEST(Spatial, treesCanBeRefitted) {
     const Scene scene = straws(1000);
     const Bvh bvh = buildSpatial(scene, {});

@@ -11,7 +11,8 @@
 namespace bvhio {
 namespace {
 
-/// The least cost of two sides over all planes between centroids on all axes, in any order of equal ones.
+/// Returns the least cost of two sides over all planes between centroids on all axes, in any order of equal
+/// centroids.
 double leastCost(const std::vector<Triangle>& triangles) {
     double least = 1e300;
     const size_t count = triangles.size();
@@ -35,8 +36,8 @@ uint32_t trianglesBelow(const Bvh& bvh, uint32_t node) {
     return n.isLeaf() ? n.primitiveCount : trianglesBelow(bvh, n.left()) + trianglesBelow(bvh, n.right());
 }
 
-// Of the root's planes, each is tried: those behind the first and before the last triangle, and those that
-// fill no group of four, too.
+// Every plane of the root is tried: also those after the first and before the last triangle, and those in an
+// incomplete group of four.
 TEST(Sweep, findsTheBestPlane) {
     for (uint32_t count = 5; count < 40; ++count) {
         const std::vector<Triangle> triangles = test::randomTriangles(count, 1, 0.3f, count);
@@ -51,7 +52,7 @@ TEST(Sweep, findsTheBestPlane) {
     }
 }
 
-// Sorted along z, the first and last triangle share no centroid with the stack between them.
+// In the order along z, the first and the last triangle have other centroids than the stack between them.
 TEST(Sweep, halvesStacksOfEqualCentroids) {
     std::vector<Triangle> triangles(1000, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
     triangles.push_back({{0, 0, 5}, {1, 0, 5}, {0, 1, 5}});

@@ -18,7 +18,7 @@ Range wholeRange(const Scene& scene, Buffer<Reference> (&sides)[2]) {
     return range;
 }
 
-/// The worst splitter: the first reference against all others.
+/// The worst splitter: it splits off only the first reference.
 struct OneOff {
     bool split(const ReferenceArrays& references, const Range& range, Range& left, Range& right, bool) const {
         const Reference* source = references.at(range);
@@ -35,7 +35,7 @@ struct OneOff {
     }
 };
 
-// Without the bound, 20,000 splits below each other.
+// Without the limit, there would be 20,000 splits below each other.
 TEST(TopDown, keepsToTheDepthBoundWhateverTheSplitter) {
     const Scene scene = test::sceneOf(test::randomTriangles(20000, 1, 0.01f));
     BuildOptions options;
@@ -43,7 +43,7 @@ TEST(TopDown, keepsToTheDepthBoundWhateverTheSplitter) {
     OneOff splitter;
     const Bvh bvh = TopDownBuild<OneOff>(options, splitter).build(scene);
     EXPECT_LE(depthOf(bvh), kMaxDepth);
-    EXPECT_GT(depthOf(bvh), kMaxDepth / 2);  // and takes over no sooner than it must
+    EXPECT_GT(depthOf(bvh), kMaxDepth / 2);  // halving starts no sooner than it must
     EXPECT_EQ(bvh.nodeCount(), 2 * scene.triangles.size() - 1);
 }
 
@@ -51,11 +51,11 @@ TEST(TopDown, mayChooseUntilOnlyHalvingKeepsTheBound) {
     Range range;
     for (const uint32_t count : {2u, 3u, 4u, 5u, 1000u, 0x7FFFFFFFu}) {
         range.count = count;
-        uint32_t levels = 0;  // that halving needs
+        uint32_t levels = 0;  // as many as halving needs
         while ((uint64_t(1) << levels) < count) ++levels;
         range.depth = kMaxDepth - levels;
-        // A split now leaves count - 1 for one level less: enough only when that is a power of two's worth
-        // less.
+        // A split now leaves count - 1 references for one level less, which is enough only if these need one
+        // level less.
         uint32_t rest = 0;
         while ((uint64_t(1) << rest) < count - 1) ++rest;
         EXPECT_EQ(mayChooseSplit(range), rest < levels) << count;

@@ -1,17 +1,18 @@
 // Agglomerative treelet restructuring (Domingues and Pedrini 2015, "Bounding volume hierarchy optimization
 // through agglomerative treelet restructuring"): the leaves of a treelet are joined from the bottom up, nodes
-// near each other first, and the tree is rebuilt so where that costs less. Departures:
-// - The paper's distance of two nodes is the area of their union. Ours is less by half of their own areas,
-//   which favours nodes that fit together over small ones: trees from lbvh come out up to 3% cheaper, and
-//   never much dearer.
+// near each other first. If the resulting tree costs less, it replaces the treelet. Departures:
+//
+// - The paper's distance of two nodes is the area of their union. Our distance subtracts half of their own
+//   areas, which favours nodes that fit together over small ones. Trees from lbvh become up to 3% cheaper,
+//   and never much more expensive.
 // - The paper joins the nearest pair and keeps all distances in a triangular matrix. Here each round joins
-//   all nodes that are nearest to each other, as PLOC does (Meister and Bittner 2018), and finds distances
-//   anew, a row of them at a time: nothing is stored, and a round takes hardly longer than one step did. By
+//   all nodes that are nearest to each other, as in PLOC (Meister and Bittner 2018), and computes distances
+//   anew, a row of them at a time. Nothing is stored, and a round takes hardly longer than one step did. With
 //   the paper's distance, which no union makes shorter, the tree would be the same.
-// - A subset may count as a leaf of the final tree where that is cheaper, as in Karras and Aila 2013: in the
-//   paper leaves form only at the end, and what was gained until then may not be a gain.
-// - Nodes with at least 512 references, of which there are few, are passed over up to three times in an
-//   iteration, children before parents: the cost falls by up to another 2%.
+// - A subset counts as a leaf of the final tree if that is cheaper, as in Karras and Aila 2013. In the paper
+//   leaves form only at the end, when earlier gains may turn out not to be gains.
+// - The few nodes with at least 512 references are visited up to three times in an iteration, children before
+//   parents. This lowers the cost by up to another 2%.
 
 #include "restructure/atr.h"
 
@@ -37,7 +38,7 @@ constexpr uint32_t kRow = std::min<uint32_t>(HWY_MAX_BYTES / sizeof(float), 16);
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// The nodes that have no parent yet, each in the slot of its first leaf.
+/// The nodes without a parent so far, each in the slot of its first leaf.
 class Clusters {
   public:
     Clusters(const Treelet& treelet, const TreeletCosts& costs)
@@ -59,11 +60,11 @@ class Clusters {
         }
     }
 
-    /// Joins nodes until one is left; returns its cost.
+    /// Joins nodes until one is left, and returns its cost.
     float joinAll(TreeletPlan& plan) {
         while (std::popcount(alive_) > 2) {
             findNearest();
-            // No branches: they would often go wrong.
+            // Without branches, which would often be mispredicted.
             uint32_t firsts = 0;
             for (uint32_t a = 0; a < size_; ++a) {
                 const auto b = uint32_t(nearest_[a]);
@@ -74,7 +75,8 @@ class Clusters {
                 join(a, uint32_t(nearest_[a]), plan);
             }
         }
-        // The root needs no search. Slot 0 is always in use: of two slots the first stays.
+        // The last join needs no search. Slot 0 is always in use, since a join keeps the first of its two
+        // slots.
         join(0, uint32_t(std::countr_zero(alive_ ^ 1)), plan);
         return below_[0];
     }
@@ -84,8 +86,8 @@ class Clusters {
         return hn::Add(hn::Mul(x, hn::Add(y, z)), hn::Mul(y, z));
     }
 
-    /// For each node the nearest other, of equally near ones the first: so of all pairs that are nearest, the
-    /// first always is a mutual one.
+    /// Finds for each node the nearest other one; of equally near ones, the first. So of all nearest pairs,
+    /// the first is always mutual.
     void findNearest() {
         const Row d;
         const RowI di;
@@ -114,7 +116,7 @@ class Clusters {
         }
     }
 
-    /// Puts a node over those in slots a and b into slot a.
+    /// Joins the nodes in slots a and b into a node in slot a.
     void join(uint32_t a, uint32_t b, TreeletPlan& plan) {
         for (auto& side : boxes_) side[a] = std::max(side[a], side[b]);
         const float x = boxes_[0][a] + boxes_[3][a], y = boxes_[1][a] + boxes_[4][a],

@@ -1,3 +1,4 @@
+// Agglomerative treelet restructuring.
 #pragma once
 
 #include "restructure/treelets.h"
@@ -7,7 +8,8 @@ namespace bvhio {
 /// Plans a tree over a treelet's leaves by joining nodes that are near each other.
 bool planByAgglomeration(const Treelet& treelet, const TreeletCosts& costs, float limit, TreeletPlan& plan);
 
-/// Rebuilds treelets by agglomeration (Domingues and Pedrini 2015); by default of 9 leaves, in 2 passes.
+/// Rebuilds treelets by agglomeration (Domingues and Pedrini 2015). By default treelets have 9 leaves, and
+/// there are 2 passes.
 Restructured restructureAtr(const Scene& scene, const Bvh& bvh, const RestructureOptions& options);
 
 }  // namespace bvhio

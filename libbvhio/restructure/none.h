@@ -1,4 +1,4 @@
-// The restructurer that changes nothing: what others are measured against.
+// The restructurer that changes nothing, as a baseline for the others.
 #pragma once
 
 #include "restructure/restructurers.h"

@@ -1,14 +1,16 @@
 // Bittner, Hapala and Havran 2013, "Fast insertion-based optimization of bounding volume hierarchies", in
 // parallel as in Meister and Bittner 2018, "Parallel reinsertion for bounding volume hierarchy optimization":
-// a subtree is taken out and put back where the tree costs least. Departures:
-// - A pass looks at some of the subtrees only, those that promise most, and at none again for which it found
-//   no better place until something about that one changed. When none are left, all get another chance.
-// - The places are found in parallel, by areas alone, in batches over a tree that rests meanwhile. Then the
-//   moves are made one by one, the greatest gain first. Instead of looking for conflicts between them, each
-//   is judged again in the tree as it is by then, and by the cost that the tree will have once leaves are
-//   formed: what lowers the one often does not lower the other.
-// - Where no single move helps, several at once may (reinsertion_treelet.h): above all among the few nodes at
-//   the top, on which the cost depends most.
+// a subtree is taken out and put back at the place where the tree costs least. Departures:
+//
+// - A pass only looks at the most promising subtrees. A subtree without a better place is not looked at again
+//   until its box, its place or its neighbourhood changes. When no such subtrees are left, all get another
+//   chance.
+// - Places are searched in parallel, by areas alone, in batches during which the tree does not change. Then
+//   the moves are made one by one, the greatest gain first. There is no search for conflicts between moves.
+//   Instead each move is judged again in the tree at that time, by the cost that the tree will have once
+//   leaves are formed: a move that lowers the sum of areas often does not lower this cost.
+// - If no single move helps, several moves at once may (reinsertion_treelet.h), above all among the few nodes
+//   near the root, on which the cost depends most.
 
 #include "restructure/reinsertion.h"
 
@@ -24,13 +26,15 @@ namespace bvhio {
 namespace {
 
 constexpr uint32_t kIterations = 4;
-constexpr size_t kPart = 20, kFewest = 1024;  // of the nodes a pass looks at one in kPart, or this many
+constexpr size_t kPart = 20, kFewest = 1024;  // a pass looks at one in kPart nodes, but at least kFewest
 constexpr uint32_t kBatches = 4;
 constexpr size_t kMovesPerTask = 128;
-// Treelets: after how many passes, their leaves, and the slots that make for a step in each pass.
+// Treelets: the number of passes before them, their leaves, and the number of the tree's slots for each step
+// of a pass.
 constexpr uint32_t kPassesBefore = 2, kTreeletLeaves = 512, kSlotsPerStep = 64, kFewestSteps = 32;
-constexpr uint32_t kCuts = 3;   // ways to cut the tree, each with four times as many treelets
-constexpr uint32_t kIdle = 16;  // passes without a change after which there is nothing left to find
+constexpr uint32_t kCuts =
+    3;  // ways to cut the tree, each with four times as many treelets as the one before
+constexpr uint32_t kIdle = 16;  // passes without a change after which the search ends
 
 struct Move {
     float gain;
@@ -49,12 +53,12 @@ class Reinsertion {
           candidates_(tree, scale_),
           moves_(tree, candidates_.flags()) {}
 
-    /// One pass; returns what it changed.
+    /// Runs one pass, and returns the number of changes.
     uint64_t iterate() {
         uint64_t changes = pass_ < kPassesBefore ? 0 : recreateTreelets();
         const std::vector<uint32_t>& selected = select();
         for (uint32_t batch = 0; batch < kBatches; ++batch) {
-            // Neighbours change each other's chances, so they come one after the other.
+            // Moves of neighbours affect each other, so neighbours are in different batches.
             batch_.clear();
             for (const uint32_t slot : selected)
                 if (slot % kBatches == batch) batch_.push_back(slot);
@@ -74,6 +78,7 @@ class Reinsertion {
     }
 
   private:
+    /// Selects the subtrees to look at. If none are left, starts again with all.
     const std::vector<uint32_t>& select() {
         const size_t wanted = std::max(tree_.size() / kPart, kFewest);
         const std::vector<uint32_t>& selected = candidates_.select(wanted);
@@ -83,7 +88,7 @@ class Reinsertion {
         return candidates_.select(wanted);
     }
 
-    /// Finds places for the batch, then moves what still gains.
+    /// Finds places for the subtrees of a batch, and makes those moves that still lower the cost.
     uint64_t moveBatch() {
         places_.resize(batch_.size());
         parallelChunks(batch_.size(), kMovesPerTask, [&](size_t begin, size_t end) {
@@ -105,14 +110,17 @@ class Reinsertion {
         return changes;
     }
 
-    /// Half of the steps for the treelet at the top, the others for as many of those below as they suffice
-    /// for, in turn.
+    /// Improves treelets. Half of the steps are for the treelet at the root. The other half is for treelets
+    /// below it, as many as the steps suffice for; the next pass continues with the next ones.
     uint64_t recreateTreelets() {
+        // The treelet at the root.
         const size_t steps = std::max<size_t>(tree_.size() / kSlotsPerStep, kFewestSteps);
         ReinsertionTreelet top(moves_, 0, kTreeletLeaves);
         Random random(pass_);
         uint64_t changes = top.improve(uint32_t(steps / 2), random);
         if (changes > 0) top.write(moves_);
+
+        // The roots of the treelets below it.
         uint32_t cut = pass_ % kCuts;
         while (cut > 0 && (kTreeletLeaves << 2 * cut) * 32 > tree_.size()) --cut;
         const std::vector<uint32_t> all =
@@ -120,6 +128,8 @@ class Reinsertion {
                      : ReinsertionTreelet(moves_, 0, kTreeletLeaves << 2 * cut).openLeaves(moves_);
         std::vector<uint32_t> roots(std::min(all.size(), steps / 2 / kTreeletLeaves));
         for (uint32_t& root : roots) root = all[next_[cut]++ % all.size()];
+
+        // Improve these in parallel, and then update the nodes above them.
         std::vector<uint32_t> changesOf(roots.size());
         parallelChunks(roots.size(), 1, [&](size_t i, size_t) {
             ReinsertionTreelet treelet(moves_, roots[i], kTreeletLeaves);
@@ -140,7 +150,7 @@ class Reinsertion {
     Candidates candidates_;
     SubtreeMoves moves_;
     uint32_t pass_ = 0, idle_ = 0;
-    bool changedSinceAll_ = false;  // since all were candidates
+    bool changedSinceAll_ = false;  // whether something changed since all subtrees were candidates
     size_t next_[kCuts] = {};
     std::vector<uint32_t> batch_;
     std::vector<Place> places_;

@@ -1,4 +1,4 @@
-// The default restructurer: subtrees move to where they cost least.
+// The default restructurer: moves subtrees to the places where they cost least.
 #pragma once
 
 #include "restructure/restructurers.h"

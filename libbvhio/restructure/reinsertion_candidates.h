@@ -1,4 +1,4 @@
-// Which subtrees to look for better places for.
+// Selects the subtrees for which better places are searched.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,17 @@
 
 namespace bvhio {
 
-/// A flag for each slot says whether its subtree is worth a search: once that found nothing, not before
-/// something about it changed. Of those, the ones that promise most come first.
+/// A flag for each slot says whether its subtree is worth a search. After a search without a result the flag
+/// is cleared, until something about the subtree changes. The most promising of the flagged subtrees come
+/// first.
 class Candidates {
   public:
     Candidates(const TreeEditor& tree, float scale);
 
     uint8_t* flags() { return flags_.data(); }
     void flagAll();
-    /// The most promising `wanted` of the flagged slots, or all, in the order of slots. Parallel.
+    /// Returns the `wanted` most promising flagged slots, or all if there are fewer, in the order of slots.
+    /// Parallel.
     const std::vector<uint32_t>& select(size_t wanted);
 
     size_t bytes() const;
@@ -29,7 +31,7 @@ class Candidates {
     const TreeEditor& tree_;
     const float scale_;
     Buffer<uint8_t> flags_;
-    Buffer<float> promises_;  // -1 where the flag is not set
+    Buffer<float> promises_;  // -1 if the flag is not set
     std::vector<uint32_t> bins_, selected_;
 };
 

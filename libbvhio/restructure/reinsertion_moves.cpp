@@ -59,25 +59,26 @@ bool SubtreeMoves::climb(uint32_t from, Path& path) const {
 }
 
 bool SubtreeMoves::move(uint32_t moved, uint32_t beside) {
-    // Rounding may not make a gain of nothing.
+    // A change this small may be rounding.
     const double least = 1e-7 * traversal_ * halfArea(tree_[tree_.parent(moved)].bounds);
     if (!(change(moved, beside) < -least)) return false;
     apply(moved, beside);
     return true;
 }
 
-/// By how much the cost would change, times areas; 0 for what cannot be moved.
+/// Returns the change of the cost, not divided by the root's area; 0 for a move that is not possible.
 double SubtreeMoves::change(uint32_t moved, uint32_t beside) {
     if (beside == tree_.sibling(moved)) return 0;
-    // Deeper nodes, which no sane tree has, stay.
+    // Find the lowest node above both. Nodes too deep for a path, which a reasonable tree does not have,
+    // stay.
     if (!climb(moved, movedPath_) || !climb(beside, besidePath_)) return 0;
     uint32_t onMoved = movedPath_.count, onBeside = besidePath_.count;
     while (onMoved > 0 && onBeside > 0 && movedPath_.slots[onMoved - 1] == besidePath_.slots[onBeside - 1])
         --onMoved, --onBeside;
-    // One is above the other.
+    // Neither may be above the other.
     if (onMoved == 0 || onBeside == 0) return 0;
 
-    // Both sides up to the children of the lowest node above both.
+    // Compute the changes on both sides, up to the children of the lowest node above both.
     Changed with = withMoved(moved, beside);
     for (uint32_t i = 1; i < onBeside; ++i) {
         const uint32_t slot = besidePath_.slots[i];
@@ -86,7 +87,7 @@ double SubtreeMoves::change(uint32_t moved, uint32_t beside) {
     uint32_t slot = movedPath_.slots[onMoved];
     Changed both;
     if (onMoved == 1) {
-        // The moved node's sibling, which takes the parent's place, is what it went into.
+        // The moved node went into the subtree of its sibling, which takes the parent's place.
         both = with;
         both.delta += withoutMoved(moved).delta;
     } else {
@@ -99,13 +100,14 @@ double SubtreeMoves::change(uint32_t moved, uint32_t beside) {
                 inner(tree_[slot].bounds, with.small, without.small)};
         if (fewEnough(both.small.count)) both.delta = both.small.cost - small_[slot].cost;
     }
-    // Higher up only costs change, and from the lowest inner node that will stay one all by the same.
+    // Further up only costs change. From the lowest node that stays an inner node on, all change by the same
+    // amount.
     for (; slot != 0 && fewEnough(small_[slot].count); slot = tree_.parent(slot))
         both = above(slot, both, tree_[tree_.parent(slot)].bounds);
     return both.delta;
 }
 
-/// The parent's slot with the sibling in it.
+/// Returns the parent's slot after the sibling has moved there.
 SubtreeMoves::Changed SubtreeMoves::withoutMoved(uint32_t moved) const {
     const uint32_t sibling = tree_.sibling(moved), parent = tree_.parent(moved);
     const double delta = fewEnough(small_[parent].count)
@@ -114,7 +116,7 @@ SubtreeMoves::Changed SubtreeMoves::withoutMoved(uint32_t moved) const {
     return {tree_[sibling].bounds, delta, small_[sibling]};
 }
 
-/// The new parent.
+/// Returns the new parent.
 SubtreeMoves::Changed SubtreeMoves::withMoved(uint32_t moved, uint32_t beside) const {
     const Aabb box = unite(tree_[moved].bounds, tree_[beside].bounds);
     const Small small = inner(box, small_[moved], small_[beside]);
@@ -123,7 +125,7 @@ SubtreeMoves::Changed SubtreeMoves::withMoved(uint32_t moved, uint32_t beside) c
     return {box, delta, small};
 }
 
-/// The parent of a child that changed.
+/// Returns the parent of a child that changed.
 SubtreeMoves::Changed SubtreeMoves::above(uint32_t child, const Changed& below, const Aabb& box) const {
     const uint32_t slot = tree_.parent(child), sibling = tree_.sibling(child);
     const Small small = inner(box, below.small, small_[sibling]);
@@ -139,6 +141,8 @@ SubtreeMoves::Changed SubtreeMoves::above(uint32_t child, const Changed& below, 
     return {box, delta, small};
 }
 
+/// Makes a move: the sibling takes the parent's place, and the free pair gets `beside`, whose slot becomes
+/// the new parent.
 void SubtreeMoves::apply(uint32_t moved, uint32_t beside) {
     const uint32_t sibling = tree_.sibling(moved), parent = tree_.parent(moved);
     const Aabb rootBox = tree_[0].bounds;
@@ -170,7 +174,7 @@ void SubtreeMoves::update(uint32_t from) {
     }
 }
 
-/// A node's box or its place changed: it, its sibling and its children may find better places now.
+/// Flags a node whose box or place changed, its sibling and its children: they may find better places now.
 void SubtreeMoves::touch(uint32_t slot) {
     touched_[slot] = touched_[tree_.sibling(slot)] = 1;
     if (!tree_[slot].isLeaf()) touched_[tree_[slot].left()] = touched_[tree_[slot].right()] = 1;

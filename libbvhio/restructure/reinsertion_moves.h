@@ -1,4 +1,4 @@
-// Moves of subtrees, judged by what they do to the cost of the tree with its leaves formed.
+// Moves of subtrees, judged by the cost of the tree after its leaves are formed.
 #pragma once
 
 #include <array>
@@ -8,50 +8,53 @@
 
 namespace bvhio {
 
-/// Moves subtrees of a tree one by one where that lowers the cost that tree/collapse.h would reach. A node
-/// with few enough references for a leaf counts with the cheaper of both, so it has its cost stored; of those
-/// above, which stay inner nodes, only areas matter.
+/// Moves subtrees of a tree one by one, if that lowers the cost that tree/collapse.h would reach. A node with
+/// few enough references for a leaf counts as a leaf or as an inner node, whichever is cheaper, so its cost
+/// is stored. Nodes with more references stay inner nodes, and only their areas matter.
 class SubtreeMoves {
   public:
-    /// `touched` holds a flag for each slot: those get set for which a move opened new chances.
+    /// `touched` has a flag for each slot. A move sets the flags of slots that may find better places now.
     SubtreeMoves(TreeEditor& tree, uint8_t* touched);
 
-    /// Moves a subtree beside another node, as their new parent's children, if that lowers the cost.
+    /// Moves a subtree next to another node if that lowers the cost. A new parent gets the two as children.
+    /// Returns whether it moved.
     bool move(uint32_t moved, uint32_t beside);
 
-    /// The references below a node, at most one more than a leaf may have; the cost of those that are few.
+    /// The number of references below a node, limited to one more than a leaf may have, and the cost if a
+    /// leaf may have that many.
     struct Small {
         double cost;
         uint32_t count;
     };
-    /// What stands in a slot.
+    /// The content of a slot.
     struct Content {
         Node node;
         Small small;
     };
 
     const TreeEditor& tree() const { return tree_; }
-    /// Whether a node is a leaf, or would become one.
+    /// Returns whether a node is a leaf, or would become a leaf.
     bool isLeafInTheEnd(uint32_t slot) const;
-    /// For who changes the tree beside: a slot's content; puts it elsewhere; makes an inner node over a pair,
-    /// once its children are there.
+    /// The following functions are for code that changes the tree itself. Returns the content of a slot.
     Content content(uint32_t slot) const { return {tree_[slot], small_[slot]}; }
+    /// Puts a content into a slot.
     void put(uint32_t slot, const Content& content);
+    /// Makes an inner node over a pair whose nodes are in place.
     void make(uint32_t slot, uint32_t pair, const Aabb& box);
-    /// Brings nodes up to date, from one upwards until nothing changes.
+    /// Updates nodes from one upwards, until nothing changes.
     void update(uint32_t from);
 
     size_t bytes() const { return small_.size() * sizeof(Small); }
 
   private:
-    /// A node as a move would make it, and by how much the cost below and including it would change, without
-    /// the moved subtree if that is large.
+    /// A node after a move, and the change of its subtree's cost. The cost of the moved subtree counts only
+    /// if it is small.
     struct Changed {
         Aabb box;
         double delta;
         Small small;
     };
-    /// Slots from a node up to the root.
+    /// The slots from a node up to the root.
     struct Path {
         std::array<uint32_t, 512> slots;
         uint32_t count = 0;
@@ -72,7 +75,7 @@ class SubtreeMoves {
     TreeEditor& tree_;
     uint8_t* const touched_;
     const double traversal_, intersection_;
-    const uint32_t maxLeafSize_;  // 0 when no leaves form
+    const uint32_t maxLeafSize_;  // 0 if no leaves form
     Buffer<Small> small_;
     Path movedPath_, besidePath_;
 };

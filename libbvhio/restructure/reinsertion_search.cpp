@@ -1,6 +1,7 @@
-// Branch and bound as in Meister and Bittner 2018, 3.1: from a node up to the root, and from each ancestor
-// down into its other child. What a subtree below node y can gain at most is known on the way down: what its
-// removal freed, less what the ancestors of y down to y itself grow by, less its own area.
+// Branch and bound as in Meister and Bittner 2018, 3.1: the search goes from the moved node up to the root,
+// and from each ancestor down into its other child. On the way down an upper bound of the gain at places
+// below a node y is known: the area that the removal frees, minus the growth of the ancestors of y and of y
+// itself, minus the moved node's own area.
 
 #include "restructure/reinsertion_search.h"
 
@@ -20,16 +21,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Four = hn::FixedTag<float, 4>;
 using FourV = hn::Vec<Four>;
 
-/// Pairs that a search looks at on its way down, and levels on its way up: typically some ten of each.
+/// The most pairs that a search looks at on its way down, and the most levels on its way up. Typical are
+/// about ten of each.
 constexpr uint32_t kMaxPairs = 2048, kMaxLevels = 256;
-/// A gain that is less than this part of the removed node's area may be rounding.
+/// A gain less than this fraction of the freed area may be rounding.
 constexpr float kLeastGain = 1e-6f;
 
 struct BoxV {
     FourV low, high;
 
-    /// Scaled at once, since an extent may exceed a float. The fourth lanes hold whatever stands behind; of
-    /// `high` zeros, since integers there are denormals.
+    /// Loads and scales a box at once, since an extent may exceed a float. The fourth lane of `low` holds
+    /// whatever follows in memory. That of `high` is zero: integers would be denormals there.
     static HWY_INLINE BoxV load(const Node& node, FourV scale) {
         const Four d;
         alignas(16) static constexpr uint32_t kThree[4] = {~0u, ~0u, ~0u, 0};
@@ -41,7 +43,7 @@ struct BoxV {
     HWY_INLINE FourV extent() const { return hn::Sub(high, low); }
 };
 
-/// Half areas of four boxes.
+/// Computes the half areas of four boxes.
 HWY_INLINE void halfAreas(BoxV a, BoxV b, BoxV c, BoxV e, float* areas) {
     const Four d;
     const FourV ea = a.extent(), eb = b.extent(), ec = c.extent(), ee = e.extent();
@@ -58,17 +60,20 @@ class Search {
     Search(const TreeEditor& tree, float scale)
         : tree_(tree), nodes_(&tree[0]), scale_(hn::Set(Four(), scale)) {}
 
+    /// Finds the best place for a subtree.
     HWY_INLINE Place find(uint32_t moved) {
         const uint32_t parent = tree_.parent(moved), sibling = tree_.sibling(moved);
         moved_ = load(nodes_[moved]);
-        BoxV left = load(nodes_[sibling]);  // by the moved node: what remains at the level reached
+        BoxV left = load(nodes_[sibling]);  // the current ancestor's box without the moved node
         alignas(16) float areas[4];
         halfAreas(moved_, left, load(nodes_[parent]), left, areas);
         movedArea_ = areas[0];
-        float removed = areas[2];  // the areas that removing the node frees
+        float removed = areas[2];  // the area that removing the node frees
         best_ = {removed * kLeastGain, 0};
         pairsLeft_ = kMaxPairs;
         if (!nodes_[sibling].isLeaf()) descend(nodes_[sibling].left(), areas[1]);
+
+        // Climb to the root, as long as ancestors shrink or a gain is still possible.
         bool shrinks = true;
         uint32_t at = parent;
         for (uint32_t level = 0; at != 0 && level < kMaxLevels && pairsLeft_ != 0; ++level) {
@@ -108,8 +113,8 @@ class Search {
         if (gain > best_.gain) best_ = {gain, beside};
     }
 
-    /// Looks at the places below a node, whose children are `pair`; `bound` is what was removed less what the
-    /// nodes above the pair grow by.
+    /// Looks at the places below a node with children `pair`. `bound` is the freed area minus the growth of
+    /// the nodes above the pair.
     HWY_INLINE void descend(uint32_t pair, float bound) {
         if (!(bound - movedArea_ > best_.gain)) return;
         uint32_t open = 0;

@@ -12,7 +12,7 @@ constexpr uint32_t kMostTaken = 4;  // subtrees that a step takes out
 ReinsertionTreelet::ReinsertionTreelet(const SubtreeMoves& moves, uint32_t root, uint32_t maxLeaves)
     : rootBox_(moves.tree()[root].bounds) {
     parts_.reserve(2 * maxLeaves);
-    std::vector<std::pair<double, uint32_t>> open;  // a heap: the largest area first, of equals the first
+    std::vector<std::pair<double, uint32_t>> open;  // a heap: the largest area first; of equals, the first
     const auto consider = [&](uint32_t part) {
         if (moves.isLeafInTheEnd(parts_[part].slot)) return;
         open.push_back({parts_[part].area, ~part});
@@ -53,7 +53,7 @@ uint32_t ReinsertionTreelet::improve(uint32_t steps, Random& random) {
     return better;
 }
 
-/// Large nodes matter more.
+/// Picks a node at random. Large nodes matter more, so they are more likely.
 uint32_t ReinsertionTreelet::pick(Random& random) const {
     uint32_t best = random.below(uint32_t(parts_.size()));
     for (int i = 0; i < 3; ++i) {
@@ -63,7 +63,7 @@ uint32_t ReinsertionTreelet::pick(Random& random) const {
     return best;
 }
 
-/// Others below the same ancestor, a few levels up, none within another.
+/// Picks more nodes below an ancestor a few levels up, so that no node is below another one.
 void ReinsertionTreelet::pickMore(uint32_t first, Random& random) {
     uint32_t ancestor = first;
     for (uint32_t up = random.below(4); up > 0 && parts_[ancestor].parent != kNone; --up)
@@ -79,23 +79,30 @@ void ReinsertionTreelet::pickMore(uint32_t first, Random& random) {
     }
 }
 
+/// Takes out some subtrees and puts them back. Returns whether that lowered the sum; if not, all is as
+/// before.
 bool ReinsertionTreelet::step(Random& random) {
+    // Pick the subtrees, in random order.
     const uint32_t first = pick(random);
     if (parts_[first].parent == kNone) return false;
     pickMore(first, random);
     for (size_t i = taken_.size(); i > 1; --i) std::swap(taken_[i - 1], taken_[random.below(uint32_t(i))]);
+
+    // Take them out.
     const double before = areas_;
-    double waiting = 0;  // the areas of those out
+    double waiting = 0;  // the areas of those that are out
     siblings_.clear();
     for (size_t i = 0; i < taken_.size(); ++i) {
         if (parts_[taken_[i]].parent == kNone) {
-            // All else was taken out: it stays.
+            // All others were taken out: this one stays.
             taken_.resize(i);
             break;
         }
         siblings_.push_back(takeOut(taken_[i]));
         waiting += parts_[taken_[i]].area;
     }
+
+    // Put them back at the best places. If the sum is not lower then, undo everything.
     const double wanted = before - 1e-9 * parts_[root_].area;
     size_t placed = 0;
     for (; placed < taken_.size(); ++placed) {
@@ -121,7 +128,7 @@ uint32_t ReinsertionTreelet::sibling(uint32_t part) const {
     return parent.children[parent.children[0] == part ? 1 : 0];
 }
 
-/// The sibling takes the parent's place; returns it.
+/// Takes out a subtree. Its sibling takes the parent's place. Returns the sibling.
 uint32_t ReinsertionTreelet::takeOut(uint32_t part) {
     const uint32_t parent = parts_[part].parent, other = sibling(part), above = parts_[parent].parent;
     areas_ -= parts_[parent].area;
@@ -167,7 +174,7 @@ void ReinsertionTreelet::refit(uint32_t part) {
     }
 }
 
-/// Beside which node a part costs least; kNone when that is not less than `limit`.
+/// Returns the node next to which a part costs least; kNone if that cost is not less than `limit`.
 uint32_t ReinsertionTreelet::bestPlace(uint32_t part, double limit) {
     const Aabb box = parts_[part].box;
     const double area = parts_[part].area;
@@ -185,7 +192,7 @@ uint32_t ReinsertionTreelet::bestPlace(uint32_t part, double limit) {
         }
         const double grown = cost - node.area;
         if (node.isLeaf() || !(grown + area < limit)) continue;
-        // The child that grows less first.
+        // Visit the child that grows less first.
         const auto growth = [&](uint32_t child) {
             return halfArea(unite(parts_[child].box, box)) - parts_[child].area;
         };
@@ -201,7 +208,7 @@ void ReinsertionTreelet::write(SubtreeMoves& moves) {
     std::vector<SubtreeMoves::Content> contents(parts_.size());
     for (size_t i = 0; i < parts_.size(); ++i)
         if (parts_[i].isLeaf()) contents[i] = moves.content(parts_[i].slot);
-    // Depth first through the pairs that there are; the root keeps its own.
+    // Assign the treelet's pairs in depth-first order. The root keeps its pair.
     std::sort(pairs_.begin() + 1, pairs_.end());
     parts_[root_].slot = parts_[0].slot;
     std::vector<uint32_t> stack{root_}, made;

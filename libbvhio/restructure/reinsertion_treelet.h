@@ -1,4 +1,4 @@
-// A part of the tree, small enough for the cache, in which several subtrees are taken out at once.
+// A part of the tree that is small enough for the cache, in which several subtrees can move at once.
 #pragma once
 
 #include <vector>
@@ -8,22 +8,23 @@
 
 namespace bvhio {
 
-/// The nodes from one down to some that count as leaves here. Ruin and recreate (Schrimpf et al. 2000): a few
-/// subtrees near each other are taken out, and put back one by one where each costs least; what does not
-/// lower the sum of the inner nodes' areas is undone. That finds what no single move can reach.
+/// The nodes from a root down to nodes that count as leaves here. Ruin and recreate (Schrimpf et al. 2000): a
+/// step takes out a few subtrees near each other, and puts them back one by one, each at its cheapest place.
+/// It is undone if it does not lower the sum of the inner nodes' areas. This finds trees that no single move
+/// can reach.
 class ReinsertionTreelet {
   public:
     /// Copies the tree below `root`, opening nodes of large area first, up to `maxLeaves` leaves.
     ReinsertionTreelet(const SubtreeMoves& moves, uint32_t root, uint32_t maxLeaves);
 
     uint32_t leaves() const { return leaves_; }
-    /// The slots of the leaves that have nodes of the tree below.
+    /// Returns the slots of those leaves that have nodes of the tree below them.
     std::vector<uint32_t> openLeaves(const SubtreeMoves& moves) const;
 
-    /// Takes so many steps; returns how many of them lowered the sum.
+    /// Takes steps, and returns how many of them lowered the sum.
     uint32_t improve(uint32_t steps, Random& random);
 
-    /// Rebuilds the tree that it was copied from, within the same slots.
+    /// Writes the treelet back into the tree that it was copied from, in the same slots.
     void write(SubtreeMoves& moves);
 
   private:

@@ -10,13 +10,13 @@ namespace bvhio {
 std::span<const Restructurer> restructurers() {
     static constexpr Restructurer kTable[] = {
         {"reinsertion",
-         "move subtrees to where they cost least: the best cost",
+         "move subtrees to the places of least cost: the cheapest trees",
          {restructureReinsertion, kUsesIterations | kUsesLeaves}},
         {"atr",
-         "rebuild treelets by agglomeration: about as good as tr, faster",
+         "rebuild treelets by agglomeration: about as good as tr, and faster",
          {restructureAtr, kUsesIterations | kUsesTreelets | kUsesLeaves}},
         {"tr",
-         "rebuild treelets, each at its optimum",
+         "rebuild treelets, each with the least cost",
          {restructureTr, kUsesIterations | kUsesTreelets | kUsesLeaves}},
         {"none", "leave the tree as it is", {restructureNone, kUsesNothing}},
     };

@@ -1,4 +1,4 @@
-// The table of restructurers: they change which nodes a tree has, to lower its cost.
+// The table of restructurers, which change the topology of a tree to lower its cost.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@
 
 namespace bvhio {
 
-/// Most leaves of a treelet.
+/// The most leaves of a treelet.
 inline constexpr uint32_t kMaxTreeletSize = 30;
 
-/// The options that a restructurer may have a use for.
+/// The options that only some restructurers use.
 enum RestructureUses : uint32_t {
     kUsesIterations = 1,
     kUsesTreelets = 2,  // treeletSize and gamma
@@ -23,35 +23,35 @@ enum RestructureUses : uint32_t {
 
 struct RestructureOptions {
     SahCosts costs;
-    uint32_t treeletSize = 0;  // leaves of a treelet, for methods that have treelets; 0 = the method's own
-    uint32_t iterations = 0;   // 0 = the method's own
-    uint32_t gamma = 0;        // references below a node from which it roots treelets; 0 = the treelet size
-    bool collapse = true;      // leaves are opened first, and formed again where that is cheaper
-    uint32_t maxLeafSize = 0;  // of leaves that form; 0 = that of the given tree, and at least 4
-    bool recordCosts = false;  // find the cost after each iteration, which takes time of its own
+    uint32_t treeletSize = 0;  // leaves of a treelet, for methods with treelets; 0 = the method's default
+    uint32_t iterations = 0;   // 0 = the method's default
+    uint32_t gamma = 0;        // fewest references below the root of a treelet; 0 = the treelet size
+    bool collapse = true;      // open leaves first, and form them again where that is cheaper
+    uint32_t maxLeafSize = 0;  // of leaves that form; 0 = the given tree's, but at least 4
+    bool recordCosts = false;  // compute the cost after each iteration, which takes extra time
     Progress* progress = nullptr;
 };
 
-/// What one pass over the tree did.
+/// The result of one pass over the tree.
 struct RestructureIteration {
-    double sahCost = 0;    // after it, leaves formed; 0 unless recordCosts
-    double seconds = 0;    // since the last, without finding costs
-    uint64_t changes = 0;  // treelets rebuilt, or subtrees moved
+    double sahCost = 0;    // after the pass, with leaves formed; 0 unless recordCosts
+    double seconds = 0;    // since the last pass, without computing costs
+    uint64_t changes = 0;  // rebuilt treelets, or moved subtrees
 };
 
 struct Restructured {
     Bvh bvh;
     std::vector<RestructureIteration> iterations;
-    double bytesPerNode = 0;      // the memory that the method works in, per node of the opened tree
-    double recordingSeconds = 0;  // what recordCosts took
+    double bytesPerNode = 0;      // the method's working memory, per node of the opened tree
+    double recordingSeconds = 0;  // the time of recordCosts
 };
 
 /// A restructurer returns a tree over the same triangles that keeps every invariant of Bvh and never costs
-/// more, whose bytes depend on the tree and the options alone: not on the number of threads, the compiler or
-/// the processor. Throws Error{usage} for options out of its range.
+/// more. The tree's bytes depend only on the given tree and the options, and not on the number of threads,
+/// the compiler or the processor. Throws Error{usage} if an option is out of range.
 using Restructurer = Choice<Method<Restructured(const Scene&, const Bvh&, const RestructureOptions&)>>;
 
-/// All restructurers, the default first.
+/// Returns all restructurers, the default first.
 std::span<const Restructurer> restructurers();
 
 }  // namespace bvhio

@@ -1,9 +1,12 @@
 // Treelet restructuring (Karras and Aila 2013, "Fast parallel construction of high-quality bounding volume
 // hierarchies"): dynamic programming over all subsets of a treelet's leaves finds the tree of least SAH cost
 // over them. As in the paper a subset may become a leaf of the final tree where that is cheaper, here within
-// the bound on leaves' size. Departures: where the threads of the paper's warps share the subsets of one
-// treelet, here a vector holds the subsets that differ in their lowest leaves; how a subset is split is not
-// stored, but found again for the few subsets that a better tree has.
+// the limit on leaf sizes. Departures:
+//
+// - In the paper the threads of a warp share the subsets of one treelet. Here a vector holds the subsets that
+//   differ only in their lowest leaves.
+// - The best split of a subset is not stored. It is found again for the few subsets that a better tree
+//   contains.
 
 #include "restructure/tr.h"
 
@@ -29,12 +32,12 @@ using RowIndices = decltype(hn::IndicesFromVec(Row(), hn::Zero(RowI())));
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A subset is a mask of leaves. A row holds the kRow subsets that have the same leaves but for the lowest
-// kLow, which make the lane.
+// A subset is a mask of leaves. A row holds the kRow subsets that differ only in the lowest kLow leaves,
+// which are the number of the lane.
 constexpr uint32_t kRow = std::min<uint32_t>(HWY_MAX_BYTES / sizeof(float), 8), kLow = std::countr_zero(kRow);
 constexpr uint32_t kSets = 1u << kLargestOptimalTreelet, kRows = kSets / kRow;
 
-/// What lanes' subsets have in common with each set of low leaves, as indices of lanes.
+/// The intersection of each lane's subset with each set of low leaves, as indices of lanes.
 struct Lanes {
     RowIndices within[kRow];
 
@@ -46,16 +49,16 @@ struct Lanes {
     HWY_INLINE RowV common(RowV row, uint32_t set) const { return hn::TableLookupLanes(row, within[set]); }
 };
 
-/// What all subsets would cost as inner nodes, without what is below them, and as leaves.
+/// The cost of each subset as an inner node, without the nodes below it, and as a leaf.
 struct SetCosts {
     alignas(64) float inner[kSets];
     alignas(64) float whole[kSets];
-    bool leavesForm;  // or `whole` is not set
+    bool leavesForm;  // if not, `whole` is not set
 
     SetCosts(const Treelet& treelet, const TreeletCosts& costs) {
         const Row d;
         const RowI di;
-        // The two leaves with the fewest references decide whether any two may be joined.
+        // The two leaves with the fewest references decide whether any two may form a leaf.
         float fewest = kInfinity, second = kInfinity;
         for (uint32_t i = 0; i < treelet.size; ++i) {
             second = std::min(second, std::max(fewest, treelet.references[i]));
@@ -63,6 +66,7 @@ struct SetCosts {
         }
         leavesForm = fewest + second <= costs.maxLeafSize;
 
+        // The boxes and references of the sets of low leaves, one in each lane.
         RowV lowBoxes[6], lowReferences = hn::Zero(d);
         for (RowV& side : lowBoxes) side = hn::Set(d, -kInfinity);
         for (uint32_t i = 0; i < std::min(kLow, treelet.size); ++i) {
@@ -74,6 +78,7 @@ struct SetCosts {
                 hn::Add(lowReferences, hn::IfThenElseZero(has, hn::Set(d, treelet.references[i])));
         }
 
+        // Row by row: unite these with the high leaves of the row.
         float boxes[kRows][6], references[kRows];
         std::fill_n(boxes[0], 6, -kInfinity);
         references[0] = 0;
@@ -100,11 +105,11 @@ struct SetCosts {
                 hn::IfThenElse(hn::Le(count, most), hn::Mul(hn::Mul(intersection, area), count), infinity), d,
                 whole + row * kRow);
         }
-        // The empty set's area is infinite, its references none.
+        // The empty set has an infinite area and no references.
         inner[0] = whole[0] = kInfinity;
     }
 
-    /// What the subsets of a row cost when those that they are split into cost as given.
+    /// Returns the costs of a row's subsets, if the two parts of each cost `parts` together.
     HWY_INLINE RowV of(uint32_t row, RowV parts) const {
         const Row d;
         const RowV split = hn::Add(hn::Load(d, inner + row * kRow), parts);
@@ -123,7 +128,8 @@ class Optimum {
         for (uint32_t low = 1; low < kRow; ++low) firsts[low] = lanes_.common(first, low);
         const uint32_t rows = treelet.size > kLow ? 1u << (treelet.size - kLow) : 1;
         for (uint32_t row = 1; row < rows; ++row) {
-            // Both parts have high leaves; the lowest is in the first part, so that mirror images count once.
+            // Splits where both parts have high leaves. The first part has the lowest of them, so that mirror
+            // images are tried once.
             const uint32_t lowest = row & (0 - row), rest = row ^ lowest;
             RowV parts = hn::Set(d, kInfinity);
             for (uint32_t others = rest; others != 0;) {
@@ -135,8 +141,8 @@ class Optimum {
                         sums, hn::Add(hn::Load(d, a + low * kRow), hn::Load(d, b + (kRow - 1 - low) * kRow)));
                 parts = hn::Min(parts, sums);
             }
-            // One part has all the high leaves and some of the low ones: each step finishes the subsets with
-            // one low leaf more.
+            // Splits where one part has all the high leaves and some of the low ones. Each step finishes the
+            // subsets with one more low leaf.
             RowV costs = setCosts.of(row, parts);
             if (rest == 0)
                 costs =
@@ -159,7 +165,7 @@ class Optimum {
 
     float cost(uint32_t set) const { return costs_[set]; }
 
-    /// The part of a subset's best split that has its lowest leaf.
+    /// Returns the part of a subset's best split that contains the subset's lowest leaf.
     uint32_t split(uint32_t set) const {
         const uint32_t lowest = set & (0 - set), rest = set ^ lowest;
         uint32_t best = 0;
@@ -176,7 +182,7 @@ class Optimum {
     }
 
   private:
-    /// Subsets of the low leaves alone.
+    /// Computes the costs of subsets of the low leaves alone.
     void firstRow(const Treelet& treelet, const SetCosts& setCosts) {
         const Row d;
         std::fill_n(costs_, kRow, kInfinity);
@@ -190,7 +196,7 @@ class Optimum {
                     hn::Min(parts, hn::Add(lanes_.common(costs, low), lanes_.common(costs, kRow - 1 - low)));
             costs = hn::IfThenElse(hn::Lt(leaves, hn::Set(d, kInfinity)), leaves, setCosts.of(0, parts));
         }
-        // The empty set stays infinite: it is no part.
+        // The empty set keeps an infinite cost, since it cannot be a part.
         hn::Store(hn::IfThenElse(hn::FirstN(d, 1), hn::Set(d, kInfinity), costs), d, costs_);
     }
 
@@ -203,7 +209,7 @@ class Optimum {
 
     const Lanes lanes_;
     alignas(64) float costs_[kSets];
-    alignas(64) float spread_[kRows][kRow][kRow];  // by what lanes have in common with each low set
+    alignas(64) float spread_[kRows][kRow][kRow];  // costs of the lanes' intersections with each low set
 };
 
 class PlanWriter {

@@ -12,24 +12,25 @@ namespace {
 
 constexpr size_t kNodesPerTask = 1 << 14;
 
-/// Opens one leaf: writes a tree over its references to the pairs from `pair` on.
+/// Opens leaves.
 class LeafOpening {
   public:
     LeafOpening(const Scene& scene, const Bvh& bvh, bool split, Node* nodes)
         : scene_(scene), primitives_(bvh.primitives), split_(split), nodes_(nodes) {}
 
+    /// Opens a leaf: writes a tree over its references to the pairs from `pair` on.
     void open(uint32_t index, uint32_t pair) {
         const Node leaf = nodes_[index];
         references_.clear();
         for (uint32_t i = leaf.first; i < leaf.first + leaf.primitiveCount; ++i) {
             Aabb box = bounds(scene_.triangle(primitives_[i]));
-            // The part of a split triangle within the leaf.
+            // The part of a split triangle inside the leaf.
             if (split_) box = {max(box.min, leaf.bounds.min), min(box.max, leaf.bounds.max)};
             references_.push_back({box, i, 1});
         }
         next_ = pair;
         nodes_[index] = build(references_);
-        // What the given tree's builder rounded outwards, or a refit kept wide, stays so.
+        // Keep the leaf's box, which a builder may have rounded outwards, or a refit may have kept wide.
         nodes_[index].bounds = leaf.bounds;
     }
 
@@ -44,8 +45,8 @@ class LeafOpening {
         return {unite(nodes_[pair].bounds, nodes_[pair + 1].bounds), pair, 0};
     }
 
-    /// Sorts along the axis in which the centroids lie furthest apart; returns where the SAH is least, and of
-    /// many references the middle, which bounds the depth.
+    /// Sorts references along the axis in which their centroids lie furthest apart, and returns the place of
+    /// the split with the least SAH cost. For many references, returns the middle, which limits the depth.
     size_t split(std::span<Node> references) {
         Aabb centers = Aabb::empty();
         for (const Node& reference : references) centers.extend(reference.bounds.center());
@@ -109,10 +110,11 @@ TreeEditor::TreeEditor(const Scene& scene, const Bvh& bvh, const RestructureOpti
     });
 }
 
-/// Each leaf's new pairs stand behind all the given ones, in the leaves' order.
+/// Opens all leaves. Their new pairs come after all the given pairs, in the order of the leaves.
 void TreeEditor::open(const Scene& scene) {
     const size_t given = given_.nodes.size();
-    // A leaf of n references needs n - 1 pairs; a chunk's leaves begin where those before it end.
+    // A leaf of n references needs n - 1 pairs. The pairs of a chunk's leaves begin where those of the chunk
+    // before end.
     std::vector<uint64_t> ends((given + kNodesPerTask - 1) / kNodesPerTask);
     parallelChunks(given, kNodesPerTask, [&](size_t begin, size_t end) {
         uint64_t pairs = 0;
@@ -122,7 +124,8 @@ void TreeEditor::open(const Scene& scene) {
     });
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
     if (given + 2 * ends.back() > 0xFFFFFFFE)
-        throw Error(ErrorKind::resources, "too many references to open all leaves: use --no-collapse");
+        throw Error(ErrorKind::resources,
+                    "there are too many references to open all leaves: use --no-collapse");
     nodes_ = Buffer<Node>(given + 2 * ends.back());
     std::copy(given_.nodes.begin(), given_.nodes.end(), nodes_.data());
     parallelChunks(given, kNodesPerTask, [&](size_t begin, size_t end) {

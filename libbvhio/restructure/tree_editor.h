@@ -1,5 +1,5 @@
-// What restructurers share: a tree that can be changed in place, opened to one reference a leaf, and the way
-// back to a canonical tree that costs no more than the given one.
+// The common part of restructurers: a tree that can be changed in place, with leaves opened to one reference
+// each, and the conversion to a canonical tree that costs no more than the given one.
 #pragma once
 
 #include <chrono>
@@ -9,41 +9,42 @@
 
 namespace bvhio {
 
-/// A tree of sibling pairs, with links up where they are asked for. Methods move nodes between slots, which
-/// keeps their number, and need not keep children behind their parents; at first they are.
+/// A tree of sibling pairs, optionally with links to parents. Methods move nodes between slots, so the number
+/// of nodes stays the same. At first children come after their parents, but methods need not keep that.
 class TreeEditor {
   public:
-    enum class Links { up, none };  // none: nodes have no parents to ask for or to set
+    enum class Links { up, none };  // with `none`, parent and setParent must not be called
 
-    /// With options.collapse every leaf of several references is opened down to single ones, a part of a
-    /// split triangle keeping the box that it has in that leaf; else leaves stay whole. Parallel.
+    /// Copies a tree. With options.collapse every leaf of several references is opened down to leaves of one
+    /// reference, where a part of a split triangle keeps the box that it has in the opened leaf. Otherwise
+    /// leaves stay whole. Parallel.
     TreeEditor(const Scene& scene, const Bvh& bvh, const RestructureOptions& options,
                Links links = Links::up);
 
     size_t size() const { return nodes_.size(); }
-    /// 0 is the root, 1 unused; a pair is 2 k and 2 k + 1.
+    /// Returns a node by its slot: 0 is the root, 1 is unused, and 2 k and 2 k + 1 are a pair.
     Node& operator[](uint32_t index) { return nodes_[index]; }
     const Node& operator[](uint32_t index) const { return nodes_[index]; }
     Node* data() { return nodes_.data(); }
-    /// The node whose children a pair is; 0 for the root's own slot too.
+    /// Returns the parent of a node; 0 for the root.
     uint32_t parent(uint32_t index) const { return parentOfPair_[index / 2]; }
     void setParent(uint32_t index, uint32_t parent) { parentOfPair_[index / 2] = parent; }
-    /// Tells a node's children where it stands now.
+    /// Sets the parent of a node's children to the node's slot.
     void adopt(uint32_t index) {
         if (!nodes_[index].isLeaf()) setParent(nodes_[index].left(), index);
     }
     uint32_t sibling(uint32_t index) const { return index ^ 1; }
 
     const RestructureOptions& options() const { return options_; }
-    /// Most primitives of a leaf that forms.
+    /// Returns the most primitives of a leaf that forms.
     uint32_t maxLeafSize() const { return maxLeafSize_; }
-    /// The bytes of the tree itself.
+    /// Returns the bytes of the tree itself.
     size_t bytes() const;
 
-    /// Notes an iteration's time and, when asked for, the cost reached.
+    /// Records the time of an iteration and, with options.recordCosts, the cost reached.
     void endIteration(uint64_t changes);
-    /// The canonical tree: collapsed, or as it is; the given one unless that costs less. `workBytes` is
-    /// what the method needed beside the editor.
+    /// Returns the canonical tree, with leaves formed if options.collapse. Returns the given tree if that
+    /// costs no more. `workBytes` is the memory that the method used besides the editor's.
     Restructured finish(size_t workBytes) &&;
 
   private:
@@ -61,7 +62,8 @@ class TreeEditor {
     Clock::time_point iterationStart_ = Clock::now();
 };
 
-/// A power of two that brings the root's extent near 1, so that areas in float neither overflow nor vanish.
+/// Returns a power of two that brings the root's extent near 1, so that areas in float neither overflow nor
+/// vanish.
 float extentScale(const Aabb& root);
 
 }  // namespace bvhio

@@ -1,6 +1,6 @@
-// Treelets of disjoint subtrees share nothing. So each subtree of a few thousand references is one task's,
-// and the nodes above those, few enough for one thread, come last: no node waits for a counter that its
-// children raise, as in the papers, and the result cannot depend on the threads.
+// Treelets of disjoint subtrees share nothing. So one task handles each subtree of a few thousand references,
+// and the nodes above these subtrees, few enough for one thread, come last. Unlike in the papers no node
+// waits for a counter that its children increment, and the result cannot depend on the threads.
 
 #include "restructure/treelets.h"
 
@@ -34,8 +34,10 @@ class TreeletPass {
     uint32_t references() const { return states_[0].references; }
     size_t bytes() const { return states_.size() * sizeof(State); }
 
-    /// One pass over the inner nodes with at least `gamma` references; returns how many treelets changed.
+    /// Runs one pass over the inner nodes with at least `gamma` references. Returns how many treelets
+    /// changed.
     uint64_t run(uint32_t gamma) {
+        // The subtrees, in parallel.
         std::vector<uint32_t> subtrees;
         std::vector<uint32_t> top = nodesAbove(kSubtree, gamma, &subtrees);
         std::vector<uint64_t> changes(subtrees.size());
@@ -51,6 +53,8 @@ class TreeletPass {
             }
             if (progress) progress->add(states_[subtrees[i]].references);
         });
+
+        // The nodes above them.
         uint64_t all = 0, done = 0;
         for (size_t i = 0; i < subtrees.size(); ++i) {
             all += changes[i];
@@ -68,10 +72,10 @@ class TreeletPass {
     }
 
   private:
-    static constexpr uint32_t kSubtree = 4096;  // most references of a subtree that one task takes
-    static constexpr uint32_t kTop = 512;       // fewest references of a node that may be visited repeatedly
+    static constexpr uint32_t kSubtree = 4096;  // the most references of a task's subtree
+    static constexpr uint32_t kTop = 512;       // the fewest references of a node that is visited repeatedly
 
-    /// What is known of a node beside its box.
+    /// The data of a node besides its box.
     struct State {
         float cost;  // of the subtree, in scaled areas
         uint32_t references;
@@ -84,11 +88,13 @@ class TreeletPass {
         uint32_t leaves[kMaxTreeletSize];
     };
 
+    /// Returns whether a node is the root of a treelet in this pass.
     bool isCandidate(uint32_t index, uint32_t gamma) const {
         return states_[index].references >= gamma && !editor_[index].isLeaf();
     }
 
-    /// Candidates with more than `size` references, parents first, and the topmost ones with fewer.
+    /// Returns the candidates with more than `size` references, parents first. Appends the topmost candidates
+    /// with fewer to `others`.
     std::vector<uint32_t> nodesAbove(uint32_t size, uint32_t gamma, std::vector<uint32_t>* others) const {
         std::vector<uint32_t> nodes, open{0};
         while (!open.empty()) {
@@ -105,8 +111,8 @@ class TreeletPass {
         return nodes;
     }
 
-    /// All candidates of a candidate's subtree, depth first: a node's treelet is then in the cache when its
-    /// parent's needs it.
+    /// Returns all candidates of a candidate's subtree, depth first, so that a node's treelet is still in the
+    /// cache when its parent's treelet needs it.
     std::vector<uint32_t> nodesBelow(uint32_t root, uint32_t gamma) const {
         std::vector<uint32_t> nodes, open{root};
         while (!open.empty()) {
@@ -131,7 +137,7 @@ class TreeletPass {
                          states_[node.right()].cost);
     }
 
-    /// Sets all states. No tree has been changed yet: children stand behind their parents.
+    /// Sets all states. The tree has not been changed yet, so children come after their parents.
     void measure() {
         for (auto i = uint32_t(states_.size()); i-- > 0;) {
             if (i == 1) continue;
@@ -153,27 +159,29 @@ class TreeletPass {
         return changes;
     }
 
+    /// Forms the treelet of a root, and rebuilds it if that lowers the cost. Returns whether it did.
     bool visit(uint32_t root, Workspace& work) {
         states_[root].cost = costOf(root);
         form(root, work);
         const uint32_t size = work.treelet.size;
         if (size < 3) return false;
-        // What sums of floats may be wrong by is no gain.
+        // A gain must exceed the rounding error of sums of floats.
         const float limit = states_[root].cost * (1 - float(size) * 0x1p-23f);
         if (!planner_(work.treelet, costs_, limit, work.plan)) return false;
         apply(work);
         return true;
     }
 
-    /// Finds the treelet of a root. Of leaves of equal area the first is replaced: by its left child, and the
-    /// right one comes last.
+    /// Forms the treelet of a root. Of leaves of equal area the first is replaced. Its left child takes its
+    /// place, and the right child is appended.
     void form(uint32_t root, Workspace& work) const {
         uint32_t* const leaves = work.leaves;
-        // Ordered by area, then by place; 0 for what has no children. No branch: it would often go wrong.
+        // Keys are ordered by area, then by place; 0 for nodes without children. Branches would often be
+        // mispredicted.
         uint64_t keys[kMaxTreeletSize];
         const auto put = [&](uint32_t place, uint32_t index) {
             const Node& node = editor_[index];
-            // What may be far away, and needed soon.
+            // Prefetch data that may be far away and is needed soon.
             hwy::Prefetch(&editor_[node.primitiveCount == 0 ? node.first : index]);
             hwy::Prefetch(&states_[index]);
             const uint64_t key =
@@ -196,6 +204,7 @@ class TreeletPass {
             put(size, left + 1);
         }
 
+        // Copy the leaves' data, component by component.
         Treelet& treelet = work.treelet;
         treelet.size = size;
         for (uint32_t i = 0; i < size; ++i) {
@@ -207,7 +216,7 @@ class TreeletPass {
         }
     }
 
-    /// Carries out the plan: the treelet's nodes get new places in its pairs, those near the root the same.
+    /// Carries out the plan: nodes of the treelet get new places in the treelet's pairs.
     void apply(const Workspace& work) {
         const uint32_t size = work.treelet.size;
         uint32_t pairs[kMaxTreeletSize - 1];
@@ -232,7 +241,7 @@ class TreeletPass {
             states[size + step] = {costs_.of(area(bounds), float(references), left.cost, right.cost),
                                    references};
         }
-        // The root keeps its box, which may be wider than its children's.
+        // The root keeps its box, which may be larger than the union of its children's boxes.
         const uint32_t root = work.inner[0];
         editor_[root].first = pairs[0];
         states_[root].cost = costOf(root);
@@ -253,7 +262,7 @@ Restructured restructureTreelets(const Scene& scene, const Bvh& bvh, const Restr
                                  const TreeletMethod& method) {
     const uint32_t size = options.treeletSize == 0 ? method.size : options.treeletSize;
     if (size < 3 || size > method.largestSize)
-        throw Error(ErrorKind::usage, "treelet size " + std::to_string(size) + ": the method takes 3 to " +
+        throw Error(ErrorKind::usage, "treelet size " + std::to_string(size) + " is out of range: use 3 to " +
                                           std::to_string(method.largestSize));
     TreeEditor editor(scene, bvh, options, TreeEditor::Links::none);
     TreeletPass pass(editor, method, size);

@@ -16,8 +16,8 @@ namespace {
 
 constexpr TreeletCosts kCosts[] = {{1, 1, 0}, {1.2f, 1, 4}, {1, 10, 1000}};
 
-/// The same agglomeration with all nodes in a list: in each round those that are nearest to each other are
-/// joined.
+/// Does the same agglomeration with all nodes in a list: in each round, nodes that are nearest to each other
+/// are joined.
 TreeletPlan planNaively(const Treelet& treelet, const TreeletCosts& costs) {
     struct Cluster {
         test::Subtree subtree;

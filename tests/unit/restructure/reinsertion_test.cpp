@@ -14,7 +14,8 @@
 namespace bvhio {
 namespace {
 
-/// A tree of one triangle a leaf whose primitives were dealt at random, so that many subtrees are misplaced.
+/// Returns a tree of one triangle per leaf with primitives in random order, so that many subtrees are
+/// misplaced.
 Bvh badTree(const Scene& scene, uint64_t seed) {
     Random random(seed);
     AlignedVector<Node> nodes(2 * scene.triangles.size());
@@ -40,7 +41,8 @@ Bvh badTree(const Scene& scene, uint64_t seed) {
     return {std::move(nodes), std::move(primitives)};
 }
 
-/// The sum of the inner nodes' areas below a node, with `moved` beside `beside` instead of where it is.
+/// Computes the sum of the inner nodes' areas below a node, with `moved` next to `beside` instead of at its
+/// place.
 class Moved {
   public:
     Moved(const TreeEditor& tree, uint32_t moved, uint32_t beside)
@@ -75,7 +77,7 @@ class Moved {
 
     const TreeEditor& tree_;
     const uint32_t moved_;
-    uint32_t beside_;  // 0: nowhere, all is as it is
+    uint32_t beside_;  // 0: nothing has moved
     double sum_ = 0;
 };
 
@@ -85,13 +87,13 @@ bool isBelow(const TreeEditor& tree, uint32_t slot, uint32_t top) {
     return true;
 }
 
-// A search that prunes too much, or counts a node on the way twice, misses the best place; and one that knows
-// no areas misses all.
+// A search that prunes too much, or counts a node on the way twice, misses the best place. A search whose
+// areas overflow misses all places.
 TEST(Reinsertion, findsTheBestPlaceOfAll) {
     uint32_t found = 0;
     for (uint64_t seed = 1; seed <= 40; ++seed) {
         std::vector<Triangle> triangles = test::randomTriangles(14, 1, seed % 2 == 0 ? 0.1f : 0.7f, seed);
-        // Of every other scene the extent is beyond a float.
+        // In every other scene the extent is beyond the range of floats.
         for (Triangle& t : triangles)
             for (Vec3* v : {&t.v0, &t.v1, &t.v2}) *v = *v * (seed % 4 < 2 ? 0x1p127f : 1.0f);
         const Scene scene = test::sceneOf(triangles);
@@ -119,7 +121,7 @@ TEST(Reinsertion, findsTheBestPlaceOfAll) {
     EXPECT_GT(found, 300u);
 }
 
-// Six triangles in two far clusters, and one of the second among those of the first.
+// Six triangles in two distant clusters; one triangle of the second cluster is among those of the first.
 TEST(Reinsertion, movesAMisplacedTriangleHome) {
     std::vector<Triangle> triangles;
     for (const float x : {0.0f, 1.0f, 2.0f, 100.0f, 101.0f, 102.0f})
@@ -147,7 +149,7 @@ TEST(Reinsertion, movesAMisplacedTriangleHome) {
     EXPECT_EQ(std::max(a.min.x, b.min.x), 100);
 }
 
-// A method that judges moves by areas alone breaks up leaves that it cannot form again.
+// A method that judged moves by areas alone would break up leaves that it could not form again.
 TEST(Reinsertion, lowersTheCostWithEachIteration) {
     const Scene scenes[] = {test::sceneOf(test::randomTriangles(3000, 1, 0.2f)),
                             test::sceneOf(test::randomTriangles(3000, 1, 0.02f)), test::sphereScene(60, 30),
@@ -200,8 +202,7 @@ TEST(Reinsertion, stopsWhenNothingGains) {
     EXPECT_EQ(progress.done.load(), progress.total.load());
 }
 
-// Steps that fail must leave nothing behind, and those that succeed lower the cost of the tree they came
-// from.
+// Steps that fail must leave no traces. Steps that succeed must lower the cost of the tree.
 TEST(Reinsertion, recreatesTreelets) {
     const Scene scene = test::sceneOf(test::randomTriangles(2000, 1, 0.1f));
     const Bvh before = badTree(scene, 5);
@@ -231,12 +232,12 @@ TEST(Reinsertion, recreatesTreelets) {
         }
 }
 
-/// Every triangle overlaps every other one.
+/// Returns triangles that all overlap each other.
 Scene pileOf(uint32_t count) {
     return test::sceneOf(test::randomTriangles(count, 0.001f, 1));
 }
 
-// Where all places are as good, or nearly, a search without bounds looks at all of them.
+// If all places are equally good, or nearly, a search without limits looks at all of them.
 TEST(Reinsertion, takesBoundedTimeOnPilesOfTriangles) {
     for (const Scene& scene : {test::coincidentScene(1000000), pileOf(100000)}) {
         const Bvh before = builders()[0].function(scene, {});
@@ -246,7 +247,7 @@ TEST(Reinsertion, takesBoundedTimeOnPilesOfTriangles) {
     }
 }
 
-// Boxes within boxes: the best tree is a chain, deeper than any that is allowed.
+// Nested boxes: the best tree is a chain, which is deeper than allowed.
 TEST(Reinsertion, keepsTheBoundOnDepth) {
     std::vector<Triangle> triangles;
     for (int i = 0; i < 3000; ++i) {

@@ -14,7 +14,7 @@
 namespace bvhio {
 namespace {
 
-/// The least cost of all trees, by trying every order of joining.
+/// Returns the least cost of all trees, by trying every order of joins.
 float leastCost(const std::vector<test::Subtree>& nodes, const TreeletCosts& costs) {
     if (nodes.size() == 1) return nodes[0].cost;
     float least = test::kNoLimit;

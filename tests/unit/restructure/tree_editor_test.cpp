@@ -51,7 +51,7 @@ TEST(TreeEditor, keepsLeavesWholeWithoutCollapse) {
     EXPECT_TRUE(test::sameBytes(std::move(editor).finish(0).bvh, bvh));
 }
 
-// A part of a split triangle keeps the box it has in its leaf: the tree of opened leaves may not grow.
+// A part of a split triangle keeps the box that it has in its leaf, so opening leaves must not enlarge boxes.
 TEST(TreeEditor, opensSplitTrianglesWithinTheirLeaves) {
     const Scene scene = test::sceneOf({{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}});
     AlignedVector<Node> nodes(4);
@@ -66,7 +66,7 @@ TEST(TreeEditor, opensSplitTrianglesWithinTheirLeaves) {
     for (const uint32_t i : {4u, 5u}) EXPECT_TRUE(editor[2].bounds.contains(editor[i].bounds));
 }
 
-// What a method made worse is thrown away.
+// If a method makes the tree worse, the given tree is returned.
 TEST(TreeEditor, fallsBackOnTheGivenTree) {
     const Scene scene = test::sceneOf(test::randomTriangles(1000, 1, 0.01f));
     const Bvh bvh = builders()[0].function(scene, {});

@@ -24,7 +24,7 @@ Bvh oneTriangleALeaf(const Scene& scene) {
     return choose(builders(), "builder", "median").function(scene, {.costs = {}, .maxLeafSize = 1});
 }
 
-/// The boxes of a treelet's leaves, found step by step.
+/// Returns the boxes of a treelet's leaves, found step by step.
 std::vector<Aabb> leavesOf(const Bvh& bvh, uint32_t root, uint32_t size) {
     std::vector<uint32_t> leaves{bvh.nodes[root].left(), bvh.nodes[root].right()};
     while (leaves.size() < size) {
@@ -45,7 +45,7 @@ std::vector<Aabb> leavesOf(const Bvh& bvh, uint32_t root, uint32_t size) {
     return boxes;
 }
 
-// Areas are equal on a grid: then the first leaf is replaced.
+// On a grid areas are equal. Then the first leaf is replaced.
 TEST(Treelets, replaceTheLargestLeaf) {
     const Scene scenes[] = {test::sceneOf(test::randomTriangles(100, 1, 0.3f)),
                             test::gridScene(8, [](float, float) { return 0.0f; }), test::sphereScene(3, 2)};
@@ -54,7 +54,7 @@ TEST(Treelets, replaceTheLargestLeaf) {
         for (const uint32_t size : {3u, 4u, 7u, 9u, kMaxTreeletSize}) {
             seen.clear();
             RestructureOptions options;
-            options.gamma = uint32_t(scene.triangles.size());  // only the root has as many references
+            options.gamma = uint32_t(scene.triangles.size());  // only the root has that many references
             restructureTreelets(scene, bvh, options, {size, size, 1, 1, keepAsItIs});
             ASSERT_EQ(seen.size(), 1u);
             const std::vector<Aabb> expected = leavesOf(bvh, 0, size);
@@ -88,10 +88,10 @@ TEST(Treelets, rootAtNodesWithEnoughReferences) {
         RestructureOptions options;
         options.gamma = gamma;
         options.collapse = false;
-        const ThreadLimit limit(1);  // `seen` knows no threads
+        const ThreadLimit limit(1);  // `seen` is not thread-safe
         const Restructured result = restructureTreelets(scene, bvh, options, {9, 9, 1, 1, keepAsItIs});
         const auto enough = [&](uint32_t count) { return count >= std::max(gamma, 3u); };
-        // The unused slot counts one.
+        // The unused slot counts as one.
         EXPECT_EQ(seen.size(), size_t(std::count_if(references.begin(), references.end(), enough)));
         EXPECT_TRUE(test::sameBytes(result.bvh, bvh));
     }
@@ -110,7 +110,7 @@ TEST(Treelets, stopWhenNoNodeHasEnoughReferences) {
     EXPECT_EQ(restructureTr(scene, bvh, options).iterations.size(), 0u);
 }
 
-// Leaves that form are counted as the treelets are judged, so no iteration can raise the cost.
+// Treelets are judged with the leaves that will form, so no iteration can raise the cost.
 TEST(Treelets, lowerTheCostInEveryIteration) {
     const Scene scene = test::sceneOf(test::randomTriangles(20000, 1, 0.02f));
     const Bvh bvh = choose(builders(), "builder", "lbvh").function(scene, {});

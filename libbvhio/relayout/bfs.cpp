@@ -1,5 +1,5 @@
-// Breadth-first order: the pairs of each level from left to right, level after level. The upper levels, which
-// many rays read, are together; deeper down a pair lies far from its parent.
+// Breadth-first order: level by level, the pairs of each level from left to right. The upper levels, which
+// many rays read, are close together, but further down a pair is far from its parent.
 
 #include "relayout/bfs.h"
 

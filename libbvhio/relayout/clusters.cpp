@@ -16,7 +16,7 @@ LayoutResult layout(const Bvh& bvh, const LayoutOptions& given, ClusterMethod me
     options.lineSlots = std::bit_floor(std::clamp(given.lineSize / kRecordBytes, 1u, SlotMap::kMaxLineSlots));
     options.method = method;
     LayoutResult result{{}, makeClusters(bvh, options, given.weights)};
-    // Slots name pairs by where the layout puts them.
+    // Renumber the pairs in the slots by their places in the layout.
     std::vector<uint32_t> words(result.slots.words.begin(), result.slots.words.end());
     std::vector<uint32_t> place(bvh.nodes.size() / 2 - 1);
     for (uint32_t& word : words) {

@@ -1,9 +1,10 @@
-// S.-E. Yoon, D. Manocha, "Cache-Efficient Layouts of Bounding Volume Hierarchies", Eurographics 2006: of n
-// pairs about the square root of n that are likeliest to be fetched, connected to the root, come first; then
-// each subtree that is left, the likeliest first. All of these are divided in the same way, so that pairs
-// which are fetched together are close at any scale, whatever the size of a line.
+// S.-E. Yoon, D. Manocha, "Cache-Efficient Layouts of Bounding Volume Hierarchies", Eurographics 2006. Of n
+// pairs, a top of about sqrt(n) pairs comes first: the pairs that are most likely to be fetched and are
+// connected to the root. Then come the subtrees below it, the likeliest first. The top and each subtree are
+// divided in the same way again, so that pairs which are fetched together are close together at any scale,
+// for any size of a line.
 //
-// Departure: child clusters follow by their weight; the paper orders them by where they lie in space.
+// Departure: child clusters are ordered by weight. The paper orders them by their position in space.
 
 #include "relayout/col.h"
 

@@ -1,4 +1,4 @@
-// Cache-oblivious order by probabilities.
+// A cache-oblivious order by probabilities.
 #pragma once
 
 #include "relayout/layouts.h"

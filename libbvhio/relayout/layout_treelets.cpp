@@ -1,10 +1,10 @@
 // D. Wodniok, A. Schulz, S. Widmer, M. Goesele, "Analysis of Cache Behavior and Performance of Different BVH
-// Memory Layouts for Tracing Incoherent Rays", EGPGV 2013. A treelet grows from its root over the children
-// that are likely enough to be entered when their parent was; all others become roots of treelets.
+// Memory Layouts for Tracing Incoherent Rays", EGPGV 2013. A treelet grows from its root to those children
+// that are likely enough to be entered if their parent is. All other children become roots of treelets.
 //
-// Departures: a treelet may be limited in size. Of two children that it goes on to the likelier is first.
-// Treelets wait on a stack, not in a queue, a treelet's likeliest child treelet on top, so that it follows
-// its parent: with a queue the same thresholds give up to 1.5 times the misses of plain depth first.
+// Departures: the size of treelets may be limited. Of two children in a treelet the likelier one comes first.
+// Treelets wait on a stack, not in a queue. A treelet's likeliest child treelet is on top, so that it follows
+// its parent: with a queue the same thresholds give up to 1.5 times the misses of plain depth-first order.
 
 #include "relayout/layout_treelets.h"
 
@@ -14,7 +14,7 @@
 namespace bvhio {
 namespace {
 
-/// Grows a treelet; the children that it does not go on to are appended to `others`.
+/// Grows a treelet, and appends the children that are not in it to `others`.
 void grow(const PairTree& tree, const TreeletRule& rule, uint32_t root, std::vector<uint32_t>& order,
           std::vector<uint32_t>& others) {
     const bool depthFirst = rule.growth == TreeletGrowth::depthFirst;
@@ -25,7 +25,8 @@ void grow(const PairTree& tree, const TreeletRule& rule, uint32_t root, std::vec
         order.push_back(pair);
         std::array<uint32_t, 2> children;
         const uint32_t found = tree.children(pair, true, children);
-        if (depthFirst) std::reverse(children.begin(), children.begin() + found);  // the last pushed is next
+        if (depthFirst)
+            std::reverse(children.begin(), children.begin() + found);  // the one pushed last is next
         for (uint32_t i = 0; i < found; ++i) {
             if (!(tree[children[i]].weight > rule.threshold * tree[pair].weight))
                 others.push_back(children[i]);

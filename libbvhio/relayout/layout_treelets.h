@@ -1,5 +1,5 @@
-// Orders made of treelets: groups of pairs that rays tend to go through together, one behind the other. They
-// have nothing in common with the treelets that restructuring rebuilds.
+// Orders made of treelets: groups of pairs, one group after another, that rays tend to visit together. They
+// are unrelated to the treelets that restructuring rebuilds.
 #pragma once
 
 #include "relayout/pair_tree.h"
@@ -10,12 +10,12 @@ enum class TreeletGrowth { depthFirst, breadthFirst };
 
 struct TreeletRule {
     TreeletGrowth growth;
-    double
-        threshold;  // a treelet goes on to children whose probability, when their parent is entered, is above
-    uint32_t maxPairs;  // of a treelet
+    double threshold;   // a treelet contains children whose probability, if their parent is entered, is above
+                        // this
+    uint32_t maxPairs;  // the most pairs of a treelet
 };
 
-/// All pairs of the tree.
+/// Returns all pairs of the tree, in the order of treelets.
 std::vector<uint32_t> orderTreelets(const PairTree& tree, const TreeletRule& rule);
 
 }  // namespace bvhio

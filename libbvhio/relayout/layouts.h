@@ -1,4 +1,4 @@
-// The table of layouts: orders of a tree's nodes in memory. Layouts change neither the tree nor its cost.
+// The table of layouts, which order a tree's nodes in memory. Layouts change neither the tree nor its cost.
 #pragma once
 
 #include "core/choice.h"
@@ -7,7 +7,7 @@
 
 namespace bvhio {
 
-/// The options that a layout may have a use for.
+/// The options that only some layouts use.
 enum LayoutUses : uint32_t {
     kUsesWeights = 1,
     kUsesLines = 2,  // lineSize and recordBytes
@@ -20,12 +20,11 @@ enum LayoutUses : uint32_t {
 struct LayoutOptions {
     uint32_t lineSize = 64;  // bytes of a cache line
     uint32_t recordBytes =
-        16;  // bytes of a pair's record in the form that the order is for: quantized has 16
-    float threshold =
-        -1;  // treelets go on to a child of at least this probability; below 0: the layout's own
-    uint32_t treeletSize = 0;  // most pairs of a treelet; 0: the layout's own
+        16;                // bytes of a pair's record in the form that the order is for; quantized has 16
+    float threshold = -1;  // treelets contain children above this probability; below 0: the layout's default
+    uint32_t treeletSize = 0;  // the most pairs of a treelet; 0: the layout's default
     uint32_t pointerBits = 8;  // of a reference within an address cluster
-    /// How often each pair is fetched, by half the index of its left node; any unit. None: by areas.
+    /// How often each pair is fetched, by half the index of its left node, in any unit. Empty: areas count.
     PairWeights weights{};
 
     uint32_t recordsPerLine() const { return lineSize > recordBytes ? lineSize / recordBytes : 1; }
@@ -33,15 +32,15 @@ struct LayoutOptions {
 
 struct LayoutResult {
     NodeOrder order;
-    /// How the tree in that order lies in clusters, where the layout makes some.
+    /// The clusters of the tree in that order, if the layout makes clusters.
     SlotMap slots{};
 };
 
-/// A layout's order depends on the tree, its weights and the options alone: not on the order its nodes had
-/// before, so applying a layout twice is applying it once.
+/// A layout's order depends only on the tree, the weights and the options, and not on the previous order of
+/// nodes. So applying a layout twice is the same as applying it once.
 using Layout = Choice<Method<LayoutResult(const Bvh&, const LayoutOptions&)>>;
 
-/// All layouts, the default first.
+/// Returns all layouts, the default first.
 std::span<const Layout> layouts();
 
 }  // namespace bvhio

@@ -6,12 +6,12 @@
 namespace bvhio {
 namespace {
 
-/// Rewrites the leaves' ranges so that they follow each other in depth-first order, and gathers their
-/// primitives so.
+/// Rewrites the leaves' ranges so that they follow each other in depth-first order. Returns the primitives in
+/// that order.
 AlignedVector<uint32_t> gatherPrimitives(AlignedVector<Node>& nodes, const SharedArray<uint32_t>& old) {
     AlignedVector<uint32_t> primitives(old.size());
     uint32_t next = 0;
-    std::array<uint32_t, kMaxDepth + 1> stack;  // right siblings that wait, at most one a level
+    std::array<uint32_t, kMaxDepth + 1> stack;  // right siblings that wait, at most one per level
     size_t waiting = 0;
     for (uint32_t index = 0;;) {
         Node& node = nodes[index];

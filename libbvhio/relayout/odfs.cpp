@@ -1,10 +1,10 @@
-// Ordered depth-first: as dfs, but of two subtrees the one that is entered more often comes first, so that it
-// directly follows its parent. D. Wodniok, A. Schulz, S. Widmer, M. Goesele, "Analysis of Cache Behavior and
-// Performance of Different BVH Memory Layouts for Tracing Incoherent Rays", EGPGV 2013, have it as ODFS and,
-// by visits counted in a run before, as SWST.
+// Ordered depth-first: like dfs, but of two subtrees the one that is entered more often comes first, so that
+// it directly follows its parent. D. Wodniok, A. Schulz, S. Widmer, M. Goesele, "Analysis of Cache Behavior
+// and Performance of Different BVH Memory Layouts for Tracing Incoherent Rays", EGPGV 2013, call this ODFS
+// and, with visits counted in an earlier run, SWST.
 //
-// Departure: siblings stay a pair, so "swapped" are their subtrees, and not they themselves: sides are kept.
-// With that, ODFS and SWST are one order, of other weights.
+// Departure: siblings stay a pair and keep their sides, so that only their subtrees are swapped. This makes
+// ODFS and SWST the same order with different weights.
 
 #include "relayout/odfs.h"
 

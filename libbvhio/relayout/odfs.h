@@ -1,4 +1,4 @@
-// Depth-first order, the likelier subtree first.
+// Depth-first order with the likelier subtree first.
 #pragma once
 
 #include "relayout/layouts.h"

@@ -8,8 +8,8 @@ namespace {
 constexpr uint32_t kNoGlue = 0xFFFFFFFF;
 constexpr uint32_t kSlotBytes = 8;
 
-/// The number of each pair's record in memory, by half the index of its left node before, less 1; and of the
-/// glue that leads to it.
+/// The place in memory of each pair's record, and of the glue that leads to it, by half the index of the
+/// pair's left node before the layout, minus 1.
 struct Places {
     std::vector<uint32_t> records, glue;
 

@@ -1,14 +1,14 @@
-// What a layout did to a tree, by the model that layouts are driven by: weights of pairs.
+// Measures the effect of a layout on a tree by the model that layouts use: weights of pairs.
 #pragma once
 
 #include "relayout/layouts.h"
 
 namespace bvhio {
 
-/// Before and after: how many steps from a pair to one below its nodes lead into another block of memory, for
-/// each ray that fetches the topmost pair, where pairs are fetched as often as their weights say. One by
-/// way of glue counts where it changes blocks: towards the glue, and from there. What is popped from a stack
-/// comes from elsewhere, and caches keep what was fetched before: misses are fewer, or more.
+/// The expected number of steps from a pair to a pair below it that lead into another block of memory, for
+/// each ray that fetches the topmost pair, if pairs are fetched as often as their weights say. A step by way
+/// of glue counts up to twice: towards the glue, and from there. The number of cache misses differs: nodes
+/// that are popped from a stack are elsewhere in memory, and caches keep what was fetched before.
 struct ExpectedChanges {
     double before = 0, after = 0;
 };
@@ -17,14 +17,15 @@ struct OrderEffect {
     static constexpr uint32_t kPageBytes = 4096;
 
     uint64_t pairs = 0;
-    uint64_t moved = 0;             // pairs that have another number in memory
-    uint32_t recordBytes = 0;       // of a pair: what the rest is counted with
-    uint64_t lines = 0, pages = 0;  // that the records take after it
+    uint64_t moved = 0;             // pairs whose place in memory changed
+    uint32_t recordBytes = 0;       // the size of a pair's record, used for the following numbers
+    uint64_t lines = 0, pages = 0;  // of the records after the layout
     ExpectedChanges lineChanges, pageChanges;
 };
 
-/// For records as the options say, one after another from the first on, but in their slots where the layout
-/// made clusters, of 8 bytes. A record is where it begins. By the options' weights, or by areas. O(n).
+/// Computes the effect of a layout, by the options' weights or else by areas. Records have the options' size
+/// and follow one another; if the layout made clusters, they have 8 bytes and are in their slots. A record
+/// counts for the block in which it begins. O(n).
 OrderEffect effectOf(const Bvh& before, const LayoutResult& layout, const LayoutOptions& options);
 
 }  // namespace bvhio

@@ -1,12 +1,13 @@
-// Ours. Connected clusters of at most a page, and in each connected clusters of at most a line, both chosen
-// so that rays enter as few as possible (tree/connected_parts.h). Pages follow each other depth first,
-// the likeliest at once; of the lines in a page the likeliest whose parent is placed is next.
+// Our own method. The tree is divided into connected clusters of at most a page, and each of these into
+// connected clusters of at most a line, both chosen so that rays enter as few as possible
+// (tree/connected_parts.h). Pages are in depth-first order, the likeliest first. Within a page, the next line
+// is the likeliest one whose parent is placed.
 //
-// There is no room to waste: pairs follow each other without gaps, so a line that is not full would push all
-// others off their lines. A cluster smaller than a line takes with it the nearest of those waiting that
-// complete the line exactly. Where none do, it is held until it completes another one's line, or until those
-// that are held fill lines together, cut where lines end. Most such clusters are at the bottom of the tree,
-// and nothing waits for them.
+// There are no gaps between pairs, so a line that is not full would shift all later clusters off their lines.
+// A cluster smaller than a line is placed together with the nearest waiting clusters that complete the line
+// exactly. If no clusters do, it is held until it completes the line of another cluster, or until the held
+// clusters fill whole lines together. Most such clusters are at the bottom of the tree, and no other clusters
+// wait for them.
 
 #include "relayout/pack.h"
 
@@ -22,13 +23,13 @@ namespace {
 
 constexpr uint32_t kNoCluster = PairTree::kNone;
 constexpr uint32_t kPageBytes = 4096;
-// More pairs than this a cluster of a line does not have; longer lines have several.
+// The most pairs of a cluster. Longer lines have several clusters.
 constexpr uint32_t kMaxClusterSize = 16;
 
-/// Clusters are called by their first pairs.
+/// Places clusters of pairs. The number of a cluster is that of its first pair.
 class Packer {
   public:
-    /// `lineSize` and `pageSize` in pairs.
+    /// `lineSize` and `pageSize` are in pairs.
     Packer(const PairTree& tree, const std::vector<TreeItem>& items, uint32_t lineSize, uint32_t pageSize)
         : tree_(tree),
           lineSize_(lineSize),
@@ -62,7 +63,8 @@ class Packer {
         return tree_[a].weight != tree_[b].weight ? tree_[a].weight < tree_[b].weight : a > b;
     }
 
-    /// Places the clusters of a page that are below this one, as far as their lines can be completed.
+    /// Places the cluster `start` and the clusters of its page below it, as far as their lines can be
+    /// completed.
     void placePage(uint32_t start) {
         const auto less = [this](uint32_t a, uint32_t b) { return isLess(a, b); };
         std::priority_queue<uint32_t, std::vector<uint32_t>, decltype(less)> open(less);
@@ -83,8 +85,8 @@ class Packer {
         std::sort(starts_.begin() + std::ptrdiff_t(old), starts_.end(), less);
     }
 
-    /// Places a cluster and those that complete its line. Where none do, a full cluster, whose lines are off
-    /// already, is placed alone, and another one is not.
+    /// Places a cluster and the clusters that complete its line. If no clusters do, a full cluster is placed
+    /// alone, since its pairs are off their lines already; other clusters are held.
     void placeLine(uint32_t cluster) {
         const std::vector<uint32_t> children = childrenOf(cluster);
         stopWaiting(cluster);
@@ -101,8 +103,9 @@ class Packer {
         }
     }
 
-    /// Places the last of the held clusters where together they fill lines to the last record. Of as many as
-    /// a line has records some do: the sums of two of all beginnings leave the same remainder.
+    /// Places the last of the held clusters if together they fill whole lines. Among as many held clusters as
+    /// a line has records, some consecutive ones do, because two of the partial sums of sizes leave the same
+    /// remainder.
     void placeHeld() {
         std::erase_if(held_, [this](uint32_t cluster) { return placed_[cluster] != 0; });
         uint32_t sum = 0;
@@ -115,7 +118,7 @@ class Packer {
         }
     }
 
-    /// When only clusters are left that complete no line: places one, and what fits behind it.
+    /// Places a cluster, and clusters that fit after it, when no cluster is left that completes a line.
     void placeRegardless(uint32_t cluster) {
         for (uint32_t next = cluster; next != kNoCluster;) {
             place(next);
@@ -127,8 +130,8 @@ class Packer {
         exposed_.clear();
     }
 
-    /// Finds waiting clusters of `room` pairs together, near a cluster, the largest first: parts_, which no
-    /// longer wait.
+    /// Finds waiting clusters near a cluster that have `room` pairs together, the largest first. Moves them
+    /// to parts_. Returns whether there are such clusters.
     bool complete(uint32_t room, uint32_t near, uint32_t largest = kMaxClusterSize) {
         if (room == 0) return true;
         for (uint32_t size = std::min(room, largest); size > 0; --size) {
@@ -147,7 +150,7 @@ class Packer {
         return (lineSize_ - uint32_t((order_.size() + more) % lineSize_)) % lineSize_;
     }
 
-    /// Full clusters complete no line.
+    /// Lets a cluster wait to complete a line. Full clusters do not wait, since they cannot.
     void wait(uint32_t cluster) {
         if (sizes_[cluster] < lineSize_) waiting_[sizes_[cluster]].insert(cluster);
     }
@@ -205,13 +208,13 @@ class Packer {
     const PairTree& tree_;
     uint32_t lineSize_;
     std::vector<uint32_t> page_;               // the page of each pair
-    std::vector<uint32_t> top_;                // its cluster
+    std::vector<uint32_t> top_;                // the cluster of each pair
     std::vector<uint32_t> sizes_;              // of clusters
-    std::vector<uint8_t> placed_;              // clusters
-    std::vector<std::set<uint32_t>> waiting_;  // clusters below what is placed, by size
-    std::vector<uint32_t> starts_;             // of pages to come, the next at the back
-    std::vector<uint32_t> exposed_;            // clusters below what was placed last
-    std::vector<uint32_t> held_;               // clusters that nothing completed, fewer than lineSize_
+    std::vector<uint8_t> placed_;              // whether each cluster is placed
+    std::vector<std::set<uint32_t>> waiting_;  // clusters below placed ones, by size
+    std::vector<uint32_t> starts_;             // first clusters of the next pages; the next is the last
+    std::vector<uint32_t> exposed_;            // clusters below the one that was placed last
+    std::vector<uint32_t> held_;               // clusters that no others completed, fewer than lineSize_
     std::vector<uint32_t> parts_;
     std::vector<uint32_t> order_;
 };

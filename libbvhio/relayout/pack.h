@@ -1,4 +1,4 @@
-// Lines of connected pairs, grouped into pages.
+// An order of lines of connected pairs, which are grouped into pages.
 #pragma once
 
 #include "relayout/layouts.h"

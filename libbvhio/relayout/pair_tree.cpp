@@ -10,7 +10,7 @@ PairTree::PairTree(const Bvh& bvh, const PairWeights& weights) {
     const PairWeights areas = weights.empty() ? weightsByArea(bvh) : PairWeights();
     const PairWeights& given = weights.empty() ? areas : weights;
 
-    // Nodes whose pair is to come, with what their parent's pair is called.
+    // Nodes whose children are still to be numbered, with the number of the pair that holds the node.
     struct Waiting {
         uint32_t node, parent, side;
     };

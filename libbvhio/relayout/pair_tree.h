@@ -1,4 +1,4 @@
-// The tree that layouts put in order: its nodes are sibling pairs, each fetched as one record.
+// The tree as layouts see it: its nodes are sibling pairs, each of which is fetched as one record.
 #pragma once
 
 #include <array>
@@ -9,19 +9,18 @@
 
 namespace bvhio {
 
-/// Pairs are numbered depth first, left before right, whatever their order in memory: so a parent's number is
-/// below its children's, a subtree's numbers are one run, and ties that go to the lower number go left.
-/// Empty for a tree of one leaf.
+/// Pairs are numbered depth first, left before right, independently of their order in memory. So a parent's
+/// number is less than its children's, the numbers of a subtree are one run, and a tie that goes to the lower
+/// number goes left. The tree of a single leaf has no pairs.
 struct PairTree {
     static constexpr uint32_t kNone = TreeItem::kNone;
 
     struct Pair {
-        uint32_t left;    // index of the left node
-        uint32_t parent;  // kNone: the first pair
-        std::array<uint32_t, 2>
-            children;   // the pair below the left node and that below the right; kNone: a leaf
-        uint32_t size;  // pairs in the subtree
-        double weight;  // how often it is fetched, in any unit; never above the parent's
+        uint32_t left;                     // index of the left node
+        uint32_t parent;                   // kNone: the first pair
+        std::array<uint32_t, 2> children;  // the pairs below the left and the right node; kNone: a leaf
+        uint32_t size;                     // pairs in the subtree
+        double weight;                     // how often the pair is fetched, in any unit; at most the parent's
     };
     std::vector<Pair> pairs;
 
@@ -29,8 +28,8 @@ struct PairTree {
 
     size_t size() const { return pairs.size(); }
     const Pair& operator[](uint32_t pair) const { return pairs[pair]; }
-    /// The children that are pairs, the likelier one first where `likelierFirst`, else left before right.
-    /// Returns how many.
+    /// Writes the pairs below a pair to `found`: the likelier one first if `likelierFirst`, and else left
+    /// before right. Returns their number.
     uint32_t children(uint32_t pair, bool likelierFirst, std::array<uint32_t, 2>& found) const {
         uint32_t count = 0;
         for (const uint32_t child : pairs[pair].children)
@@ -39,9 +38,9 @@ struct PairTree {
             std::swap(found[0], found[1]);
         return count;
     }
-    /// Children and weights alone.
+    /// Returns the tree as items with only children and weights.
     std::vector<TreeItem> items() const;
-    /// An order of numbers as one of nodes.
+    /// Converts an order of numbers into an order of nodes.
     NodeOrder nodeOrder(const std::vector<uint32_t>& numbers) const;
 };
 

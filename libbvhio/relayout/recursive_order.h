@@ -1,4 +1,4 @@
-// Layouts that cut a tree into a top and the subtrees below it, and each of these again.
+// Recursive layouts, which cut a tree into a top and the subtrees below it, and each of these again.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 
 namespace bvhio {
 
-/// Appends the members of a connected part of the tree, given by ascending numbers, to `order`: first the
-/// top, as `cut.top(members)` chooses it, then each subtree that hangs below it, in the order into which
-/// `cut.sort(roots)` puts their first pairs, all of them cut in the same way. A top is ascending, connected,
-/// has the first member and not all of them, where there are more than two.
+/// Appends the members of a connected part of the tree, given by ascending numbers, to `order`: first the top
+/// that `cut.top(members)` chooses, and then each subtree below it, in the order of `cut.isBefore` for their
+/// first pairs. The top and the subtrees are cut in the same way. A top is ascending and connected, and
+/// contains the first member, but not all members if there are more than two.
 template <class Cut>
 void orderRecursively(const PairTree& tree, std::span<const uint32_t> members, const Cut& cut,
                       std::vector<uint32_t>& order) {
@@ -22,7 +22,7 @@ void orderRecursively(const PairTree& tree, std::span<const uint32_t> members, c
     const std::vector<uint32_t> top = cut.top(members);
     orderRecursively(tree, std::span<const uint32_t>(top), cut, order);
 
-    // A subtree's numbers are one run, so its members are one too.
+    // The numbers of a subtree are one run, so its members are one run, too.
     struct Subtree {
         uint32_t first;
         std::span<const uint32_t> members;

@@ -1,11 +1,11 @@
-// Treelets, each breadth first.
+// An order of treelets, each in breadth-first order.
 #pragma once
 
 #include "relayout/layouts.h"
 
 namespace bvhio {
 
-/// What LayoutOptions::threshold is unless it was given. Treelets have at most as many pairs as a line has
+/// The default of LayoutOptions::threshold. By default, treelets have at most as many pairs as a line has
 /// records.
 inline constexpr double kTbfsThreshold = 0.5;
 

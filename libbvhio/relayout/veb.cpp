@@ -1,8 +1,9 @@
-// The layout of P. van Emde Boas' trees: cut at half the height, the top first, then each subtree below it,
-// from left to right, all of them cut again. H. Prokop, "Cache-Oblivious Algorithms", 1999: whatever the size
-// of a line, on any way down few are read. It knows no probabilities.
+// The layout of P. van Emde Boas' trees. The tree is cut at half its height. The top comes first, then each
+// subtree below it, from left to right, and all of these are cut again. H. Prokop, "Cache-Oblivious
+// Algorithms", 1999: for any size of a line, any way down reads few lines. The layout does not use
+// probabilities.
 //
-// Departure: trees are not balanced, so each subtree is cut at half its own height.
+// Departure: our trees are not balanced, so each subtree is cut at half its own height.
 
 #include "relayout/veb.h"
 
@@ -30,7 +31,7 @@ struct CutAtHalfHeight {
             if (depths[pair] - root < height / 2) found.push_back(pair);
         return found;
     }
-    bool isBefore(uint32_t, uint32_t) const { return false; }  // from left to right, as they are
+    bool isBefore(uint32_t, uint32_t) const { return false; }  // subtrees stay in order, from left to right
 };
 
 }  // namespace

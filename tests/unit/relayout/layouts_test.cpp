@@ -1,4 +1,4 @@
-// Layouts over trees small enough to write their orders out.
+// Tests layouts with trees so small that their orders can be written out.
 #include "relayout/layouts.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ NodeOrder orderOf(std::string_view layout, const Bvh& bvh, const LayoutOptions& 
 Bvh sixPairs() {
     return test::treeOfPairs({{0, 2}, {2, 4}, {3, 6}, {4, 8}, {6, 10}, {7, 12}});
 }
-// The right side is likelier everywhere but below 6.
+// The right side is likelier everywhere except below 6.
 const PairWeights kWeights{10, 10, 3, 7, 2, 4, 3};
 
 TEST(Layouts, dfsPutsALeftSubtreeBeforeTheRightOne) {
@@ -43,14 +43,15 @@ TEST(Layouts, swstIsOdfs) {
 }
 
 TEST(Layouts, vebPutsTheUpperHalfFirst) {
-    // Four levels: pair k, with its left node at 2k, has 2k and 2k + 1 below it.
+    // Four levels: pair k, whose left node is 2k, has pairs 2k and 2k + 1 below it.
     std::vector<std::pair<uint32_t, uint32_t>> pairs{{0, 2}};
     for (uint32_t node = 2; node < 16; ++node) pairs.emplace_back(node, 2 * node);
     EXPECT_EQ(orderOf("veb", test::treeOfPairs(pairs)),
               (NodeOrder{2, 4, 6, 8, 16, 18, 10, 20, 22, 12, 24, 26, 14, 28, 30}));
 }
 
-// A child below the threshold must root a treelet, not vanish; the likeliest of those follows at once.
+// A child below the threshold must become the root of a treelet, not disappear. The likeliest of these
+// follows at once.
 TEST(Layouts, tdfsFollowsLikelyChildrenDown) {
     const LayoutOptions options{.threshold = 0.5f, .weights = kWeights};
     EXPECT_EQ(orderOf("tdfs", sixPairs(), options), (NodeOrder{2, 6, 10, 4, 8, 12}));
@@ -70,7 +71,7 @@ TEST(Layouts, colPutsTheLikeliestPartFirst) {
     EXPECT_EQ(orderOf("col", sixPairs(), {.weights = kWeights}), (NodeOrder{2, 6, 10, 4, 8, 12}));
 }
 
-// 2 with 6 and 4 with 8 leave least to cross; 10 is alone, and 12, which is too, completes its line.
+// 2 with 6 and 4 with 8 leave the fewest crossings. 10 and 12 are alone, so 12 completes the line of 10.
 TEST(Layouts, packFillsLinesWithConnectedPairs) {
     const LayoutOptions options{.lineSize = 32, .recordBytes = 16, .weights = kWeights};
     EXPECT_EQ(orderOf("pack", sixPairs(), options), (NodeOrder{2, 6, 10, 12, 4, 8}));
@@ -81,7 +82,7 @@ TEST(Layouts, orderNothingOfATreeOfOneLeaf) {
         EXPECT_TRUE(layout.function(test::treeOfPairs({}), {}).order.empty()) << layout.name;
 }
 
-// The deepest tree allowed must not overflow a stack: chains that go on to the left, and to the right.
+// The deepest allowed tree must not overflow a stack: chains to the left, and chains to the right.
 TEST(Layouts, followTheDeepestChains) {
     for (const uint32_t side : {0u, 1u}) {
         std::vector<std::pair<uint32_t, uint32_t>> pairs{{0, 2}};
@@ -96,8 +97,8 @@ TEST(Layouts, followTheDeepestChains) {
     }
 }
 
-/// How many blocks of so many pairs a line through the root's box enters on average, by areas: crossings from
-/// one pair's block into another's.
+/// Returns how many blocks of `perBlock` pairs a line through the root's box enters on average, by areas: the
+/// crossings from the block of a pair into another block.
 double crossings(const Bvh& bvh, const NodeOrder& order, uint32_t perBlock) {
     const PairWeights weights = weightsByArea(bvh);
     std::vector<uint32_t> place(bvh.nodes.size() / 2, 0);
@@ -110,7 +111,7 @@ double crossings(const Bvh& bvh, const NodeOrder& order, uint32_t perBlock) {
     return sum;
 }
 
-// What the orders are for: fewer lines and pages on the way down.
+// The purpose of the orders: fewer lines and pages on the way down.
 TEST(Layouts, crossFewerLinesAndPagesThanDepthFirst) {
     const Bvh bvh = buildBinned(test::sphereScene(80, 50), {.costs = {}, .maxLeafSize = 1});
     const auto ratio = [&](std::string_view layout, const LayoutOptions& options, uint32_t perBlock) {
@@ -131,7 +132,7 @@ TEST(Layouts, crossFewerLinesAndPagesThanDepthFirst) {
         EXPECT_LE(ratio(layout, aabb, 4096 / 64), 0.66) << layout;
 }
 
-// Pairs that no ray visited are ordered by area, and visits of no rays say nothing.
+// Pairs that no ray visited are ordered by area. Visits that were counted over no rays are ignored.
 TEST(PairWeights, byVisitsAddLinesByArea) {
     Bvh bvh = test::treeOfPairs({{0, 2}, {3, 4}});
     AlignedVector<Node> nodes(bvh.nodes.begin(), bvh.nodes.end());

@@ -13,7 +13,7 @@ Aabb unitBoxAt(float x) {
     return {{x, 0, 0}, {x + 1, 1, 1}};
 }
 
-// Three inner nodes and four leaves, stored breadth first with the leaves' primitives backwards:
+// Three inner nodes and four leaves, in breadth-first order, with the leaves' primitives backwards:
 // root(0) -> 2, 3; node 2 -> 4, 5; node 3 -> 6, 7.
 Bvh breadthFirstTree() {
     AlignedVector<Node> nodes(8);
@@ -43,8 +43,8 @@ TEST(NodeOrder, movesPairsAndTheirParentsReferences) {
     EXPECT_EQ(moved.nodes[1].first, 0u);
 }
 
-// A subtree's primitives must be one run, whatever the order of the nodes; within a leaf their order is the
-// old one.
+// For any order of nodes the primitives of a subtree must be one run, and their order within a leaf must stay
+// the same.
 TEST(NodeOrder, gathersPrimitivesDepthFirst) {
     for (const NodeOrder& order : {NodeOrder{2, 6, 4}, NodeOrder{2, 4, 6}}) {
         const Bvh moved = applyNodeOrder(breadthFirstTree(), order);
@@ -76,8 +76,8 @@ TEST(DepthFirst, doesNotDependOnTheOldOrder) {
     EXPECT_EQ(layoutDfs(rightFirst, {}).order, (NodeOrder{2, 6, 4}));
 }
 
-// The deepest tree allowed must not overflow the stacks: a chain whose left children go on, and one whose
-// right ones do.
+// The deepest allowed tree must not overflow the stacks: a chain of left children, and a chain of right
+// children.
 TEST(DepthFirst, followsTheDeepestChains) {
     for (const bool goesLeft : {true, false}) {
         AlignedVector<Node> nodes(2 * kMaxDepth + 2);

@@ -7,8 +7,7 @@
 namespace bvhio {
 namespace {
 
-// Two pairs below the first one's nodes; the one on the left is entered by half of the rays, the other one by
-// a quarter.
+// Two pairs below the first pair's nodes. Half of the rays enter the left pair, and a quarter the right pair.
 const std::vector<std::pair<uint32_t, uint32_t>> kEffectPairs{{0, 2}, {2, 4}, {3, 6}};
 const PairWeights kEffectWeights{0, 4, 2, 1};
 
@@ -28,7 +27,7 @@ TEST(OrderEffect, isWorkedOutByHand) {
     EXPECT_EQ(effect.pageChanges.after, 0);
 }
 
-// Glue is fetched too: a way over it may change lines twice.
+// Glue is fetched, too: a step by way of glue may change lines twice.
 TEST(OrderEffect, goesThroughGlue) {
     LayoutOptions options;
     options.weights = kEffectWeights;
@@ -50,7 +49,7 @@ TEST(OrderEffect, ofALeafIsNone) {
     EXPECT_EQ(effect.lineChanges.after, 0);
 }
 
-// What pack is for.
+// The purpose of pack.
 TEST(OrderEffect, isWhatPackLowers) {
     std::vector<std::pair<uint32_t, uint32_t>> pairs{{0, 2}};
     for (uint32_t i = 0; i < 254; ++i) pairs.emplace_back(2 + i, 4 + 2 * i);  // breadth first

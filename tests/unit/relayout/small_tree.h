@@ -1,4 +1,4 @@
-// Trees given by which pair is below which node.
+// Small trees for tests, given by the pairs below their nodes.
 #pragma once
 
 #include <utility>
@@ -8,8 +8,8 @@
 
 namespace bvhio::test {
 
-/// Each entry is a node and the left node of the pair below it; all other nodes are leaves of one primitive.
-/// Boxes are all the same.
+/// Returns a tree: each entry is a node and the left node of the pair below it. All other nodes are leaves of
+/// one primitive. All boxes are equal.
 inline Bvh treeOfPairs(const std::vector<std::pair<uint32_t, uint32_t>>& pairs) {
     AlignedVector<Node> nodes(2 * pairs.size() + 2);
     std::vector<uint32_t> primitives;

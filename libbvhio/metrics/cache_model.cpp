@@ -15,7 +15,7 @@ constexpr uint64_t kMaxBytes = uint64_t(1) << 40, kMaxLine = uint64_t(1) << 30, 
 constexpr size_t kMaxLevels = 8;
 constexpr uint64_t kNoLine = ~uint64_t(0);
 
-/// A whole number from 1 to 2^40, K, M and G behind it allowed; 0 for anything else.
+/// Parses a whole number from 1 to 2^40, optionally followed by K, M or G. Returns 0 for anything else.
 uint64_t parseSize(std::string_view text) {
     uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -42,13 +42,14 @@ CacheLevel parseLevel(std::string_view text) {
     const auto parts = split(text, ':');
     if (parts.size() != 3) refuse("it is not SIZE:LINE:WAYS, as in 32K:64:8");
     const CacheLevel level{parseSize(parts[0]), parseSize(parts[1]), parseSize(parts[2])};
-    if (level.bytes == 0) refuse("the size is a number of bytes from 1 to 1024G, as in 32K");
+    if (level.bytes == 0) refuse("the size must be from 1 to 1024G bytes, as in 32K");
     if (level.line < kMinLine || level.line > kMaxLine || !std::has_single_bit(level.line))
-        refuse("the line is a power of two from 16 to 1G, as in 64");
-    if (level.ways == 0 || level.ways > kMaxWays) refuse("the ways are a number from 1 to 1024, as in 8");
+        refuse("the line must be a power of two from 16 to 1G, as in 64");
+    if (level.ways == 0 || level.ways > kMaxWays)
+        refuse("the number of ways must be from 1 to 1024, as in 8");
     const uint64_t set = level.line * level.ways;
     if (level.bytes % set != 0)
-        refuse("the size is no multiple of LINE x WAYS, " + std::to_string(set) + " bytes");
+        refuse("the size is not a multiple of LINE x WAYS, " + std::to_string(set) + " bytes");
     return level;
 }
 
@@ -65,8 +66,8 @@ std::vector<CacheLevels> parseCaches(std::string_view text) {
         kinds.emplace_back();
         for (const std::string_view level : split(kind, ',')) {
             if (++count > kMaxLevels)
-                throw Error(ErrorKind::usage,
-                            "cache: more than " + std::to_string(kMaxLevels) + " levels in all: give fewer");
+                throw Error(ErrorKind::usage, "cache: there are more than " + std::to_string(kMaxLevels) +
+                                                  " levels in all: give fewer");
             kinds.back().push_back(parseLevel(level));
         }
     }
@@ -80,8 +81,7 @@ std::string formatCacheLevel(const CacheLevel& level) {
 Cache::Cache(std::span<const CacheLevel> levels, uint64_t addressBytes) {
     for (const CacheLevel& level : levels) addressBytes = alignedUp(addressBytes, level.line);
     for (const CacheLevel& level : levels) {
-        // More sets than there are lines would stay empty, and so would the ways that a set's lines don't
-        // fill.
+        // Sets beyond the number of lines would stay empty, and so would ways beyond the lines of a set.
         const uint64_t lines = std::max(addressBytes / level.line, uint64_t(1));
         const uint64_t sets = std::min(level.sets(), lines);
         const uint64_t ways = std::min(level.ways, (lines + sets - 1) / sets);
@@ -96,7 +96,8 @@ Cache::Cache(std::span<const CacheLevel> levels, uint64_t addressBytes) {
 bool Cache::Level::touchLine(uint64_t line) {
     const uint64_t set = std::has_single_bit(sets) ? line & (sets - 1) : line % sets;
     uint64_t* const held = lines.data() + set * ways;
-    // To the front; those before its old place move back by one, the last of all falls out.
+    // Move the line to the front. The lines before its old place move back by one; if it is new, the last one
+    // is replaced.
     uint64_t moving = held[0];
     held[0] = line;
     for (uint64_t way = 1; moving != line && way < ways; ++way) std::swap(moving, held[way]);

@@ -1,4 +1,4 @@
-// The fetches of a run as a table: to draw what a layout does, or to feed another model.
+// Writes the fetches of a run as a table, to draw the effect of a layout or as input of another model.
 #pragma once
 
 #include <ostream>
@@ -7,11 +7,11 @@
 
 namespace bvhio {
 
-/// Writes the line "ray,array,offset,bytes", then one for each fetch as it comes: the ray's number in the
-/// set, the array's name, where the fetch begins in it, and how long it is.
+/// Writes the line "ray,array,offset,bytes", and then one line for each fetch: the ray's number in the set,
+/// the array's name, the offset of the fetch in the array, and its length.
 class FetchTable : public FetchListener {
   public:
-    /// `order` has the number of the ray that is traced i-th.
+    /// `order` gives the number of the ray that is traced i-th.
     FetchTable(std::ostream& out, std::span<const uint32_t> order);
 
     void rayBegins(size_t index) override { ray_ = order_[index]; }

@@ -6,7 +6,7 @@
 namespace bvhio {
 namespace {
 
-/// A ramp whose lightness in OKLab (Ottosson 2020) rises linearly, with the hue of a glowing body, as
+/// A ramp whose lightness in OKLab (Ottosson 2020) rises linearly. It has the hues of a glowing body, as
 /// saturated as sRGB allows.
 constexpr Rgb kRamp[] = {{2, 0, 14},      {14, 0, 34},    {35, 0, 51},   {59, 0, 64},    {86, 0, 72},
                          {114, 0, 76},    {143, 2, 74},   {173, 1, 67},  {204, 3, 48},   {228, 42, 0},
@@ -14,7 +14,7 @@ constexpr Rgb kRamp[] = {{2, 0, 14},      {14, 0, 34},    {35, 0, 51},   {59, 0,
                          {248, 233, 177}, {254, 253, 234}};
 constexpr int kRampSteps = int(std::size(kRamp)) - 1;
 
-/// Letters of 5 x 7 dots, a row a number, the left dot its highest bit: those of the legend.
+/// The letters of the legend, of 5 x 7 dots. Each row is a number, whose highest bit is the left dot.
 struct Glyph {
     char letter;
     uint8_t rows[7];
@@ -38,7 +38,7 @@ constexpr Glyph kGlyphs[] = {
 constexpr std::string_view kTitle = "BOX AND TRIANGLE TESTS PER RAY";
 constexpr Rgb kPaper{24, 24, 28}, kInk{220, 220, 220};
 
-/// How many pixels a glyph's dot is wide and high in a picture of this width.
+/// Returns the width and height in pixels of a glyph's dot in a picture of this width.
 uint32_t dotSize(uint32_t width) {
     return std::clamp(width / 360u, 1u, 8u);
 }
@@ -47,7 +47,7 @@ uint32_t textWidth(std::string_view text, uint32_t dot) {
     return uint32_t(text.size()) * (kGlyphWidth + 1) * dot - dot;
 }
 
-/// Writes text with its top left corner at (x, y); what lies outside the picture is left out.
+/// Draws text with its top left corner at (x, y). Parts outside the picture are left out.
 void drawText(Image& image, std::string_view text, int64_t x, int64_t y, uint32_t dot) {
     for (const char letter : text) {
         for (const Glyph& glyph : kGlyphs) {
@@ -63,7 +63,7 @@ void drawText(Image& image, std::string_view text, int64_t x, int64_t y, uint32_
     }
 }
 
-/// The bar of colours with five numbers under it, and the title where it fits.
+/// Draws the bar of colours with five numbers below it, and the title if it fits.
 void drawLegend(Image& image, uint32_t top, uint32_t white) {
     const uint32_t dot = dotSize(image.width), margin = 6 * dot, barTop = top + 4 * dot,
                    barEnd = barTop + 7 * dot;
@@ -119,7 +119,7 @@ uint32_t whiteCost(std::span<const float> costs) {
     if (some.empty()) return 4;
     const auto high = some.begin() + ptrdiff_t(double(some.size() - 1) * 0.995);
     std::nth_element(some.begin(), high, some.end());
-    // Four steps that are round numbers, so that the legend's five numbers are.
+    // Four steps of a round number, so that the five numbers of the legend are round.
     for (uint64_t ten = 1; ten < 1000000000; ten *= 10)
         for (const uint64_t digits : {10, 12, 15, 20, 25, 30, 40, 50, 60, 80}) {
             if (digits * ten % 10 != 0) continue;
@@ -130,7 +130,7 @@ uint32_t whiteCost(std::span<const float> costs) {
 }
 
 uint32_t legendHeight(uint32_t width) {
-    // 4 dots free, the bar's 7, 2 free, the numbers' 7, 3 free, the title's 7 and 3 free.
+    // In dots: 4 free, 7 for the bar, 2 free, 7 for the numbers, 3 free, 7 for the title, and 3 free.
     return 33 * dotSize(width);
 }
 

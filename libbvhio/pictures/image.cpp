@@ -25,7 +25,7 @@ std::vector<std::byte> encodePng(const Image& image) {
     std::vector<std::byte> bytes;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
-    // Writing to memory fails for lack of memory alone.
+    // Writing to memory can only fail for lack of memory.
     if (!info || setjmp(png_jmpbuf(png))) {
         png_destroy_write_struct(&png, &info);
         throw std::bad_alloc();
@@ -44,7 +44,7 @@ std::vector<std::byte> encodePng(const Image& image) {
 }
 
 Rgb fromLinear(double red, double green, double blue) {
-    // A square root instead of the sRGB curve: close to it, and the same number everywhere.
+    // A square root instead of the sRGB curve is close to it, and gives the same number everywhere.
     const auto encode = [](double c) { return uint8_t(c >= 1 ? 255 : c > 0 ? std::sqrt(c) * 255 + 0.5 : 0); };
     return {encode(red), encode(green), encode(blue)};
 }

@@ -1,4 +1,4 @@
-// Pictures, and their PNG bytes: the only header whose source knows libpng.
+// Pictures and their PNG files. Only the source of this header includes libpng.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace bvhio {
 
 using Rgb = std::array<uint8_t, 3>;
 
-/// A picture of 8-bit sRGB pixels, rows from the top.
+/// A picture of 8-bit sRGB pixels, with rows from the top.
 struct Image {
     Image(uint32_t width_, uint32_t height_, Rgb fill = {})
         : width(width_), height(height_), pixels(size_t(width_) * height_, fill) {}
@@ -22,11 +22,11 @@ struct Image {
     std::vector<Rgb> pixels;
 };
 
-/// The PNG file of a picture of at least one pixel. The same bytes for the same pixels and version of zlib:
-/// the row filter and the compression are fixed, and no time is stored.
+/// Returns the PNG file of a picture of at least one pixel. Equal pixels and the same version of zlib give
+/// the same bytes: the row filter and the compression level are fixed, and no time is stored.
 std::vector<std::byte> encodePng(const Image& image);
 
-/// The sRGB pixel of a colour in linear light; components outside [0, 1] are clamped.
+/// Converts a colour in linear light to an sRGB pixel. Components outside [0, 1] are clamped.
 Rgb fromLinear(double red, double green, double blue);
 
 }  // namespace bvhio

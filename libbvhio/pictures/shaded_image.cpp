@@ -9,13 +9,13 @@
 namespace bvhio {
 namespace {
 
-constexpr uint32_t kSide = 2;            // a pixel averages kSide x kSide points
-constexpr uint32_t kAmbientRays = 4;     // from each of them
+constexpr uint32_t kSide = 2;            // a pixel is the mean of kSide x kSide points
+constexpr uint32_t kAmbientRays = 4;     // from each point
 constexpr size_t kBandPoints = 1 << 18;  // traced at a time
 constexpr size_t kPixelsPerTask = 4096;
 
-/// A quiet colour for each geometry, by stepping round the hues in the golden ratio; clay where there is only
-/// one.
+/// Returns a muted colour for each geometry, by steps of the golden ratio round the hues. A scene of one
+/// geometry has the colour of clay.
 Vec3d colorOf(const Scene& scene, uint32_t primitive) {
     if (scene.placedGeometryCount() == 1) return {0.60, 0.52, 0.44};
     const double turns = scene.primitiveId(primitive).geometry * 0.6180339887498949;
@@ -28,7 +28,7 @@ Vec3d colorOf(const Scene& scene, uint32_t primitive) {
     return {channel(0), channel(2), channel(4)};
 }
 
-/// Light from the sky, paler towards the horizon.
+/// Returns the colour of the sky, which is paler towards the horizon. `down` is 0 at the top of the picture.
 Vec3d background(double down) {
     return Vec3d{0.42, 0.52, 0.64} * (1 - down) + Vec3d{0.86, 0.88, 0.90} * down;
 }
@@ -41,7 +41,7 @@ Vec3d shade(const Scene& scene, const Ray& ray, const Hit& hit, const CameraFram
     return colorOf(scene, hit.primitive) * (0.85 * direct * (0.4 + 0.6 * open) + 0.55 * sky * open);
 }
 
-/// Rows of points that are traced at a time, and which of them hit something.
+/// Rows of points that are traced together, and the points that hit something.
 struct Band {
     uint32_t width, top;
     std::vector<Ray> rays;
@@ -49,11 +49,12 @@ struct Band {
     std::vector<size_t> seen;
 };
 
-/// Four cosine-weighted directions at one height over the surface, a quarter turn apart. The points of a
-/// pixel share the heights out among them, so that the sixteen rays of a pixel cover the hemisphere evenly:
-/// much less noise than sixteen at random.
+/// Returns four cosine-weighted directions at the same height above the surface, a quarter turn apart. The
+/// points of a pixel divide the heights among them, so that the sixteen rays of a pixel cover the hemisphere
+/// evenly, with much less noise than sixteen random rays.
 std::array<Vec3d, kAmbientRays> ambientDirections(Vec3d normal, uint32_t share, Random& random) {
-    const double squared = (share + double(random.uniform())) / (kSide * kSide);  // of the sine to the normal
+    const double squared =
+        (share + double(random.uniform())) / (kSide * kSide);  // the squared sine to the normal
     Vec3d across;
     do across = cross(normal, cosineDirection(normal, random));
     while (dot(across, across) < 1e-12);
@@ -62,8 +63,8 @@ std::array<Vec3d, kAmbientRays> ambientDirections(Vec3d normal, uint32_t share, 
     return {up + across, up + along, up - across, up - along};
 }
 
-/// How open to the sky each of the band's hits is, 0 to 1. What blocks from afar darkens less, so that
-/// corners are soft.
+/// Returns how open to the sky each of the band's hits is, from 0 to 1. Distant surfaces darken less, so that
+/// corners look soft.
 std::vector<double> openness(const Scene& scene, const Band& band, float reach,
                              const ClosestHits& closestHits) {
     std::vector<Ray> ambient(band.seen.size() * kAmbientRays);
@@ -85,7 +86,7 @@ std::vector<double> openness(const Scene& scene, const Band& band, float reach,
     return open;
 }
 
-/// The light that each point of a band sends to the eye.
+/// Returns the light that each point of a band sends to the eye.
 std::vector<Vec3d> bandLight(const Scene& scene, const PrimaryRays& make, const CameraFrame& frame,
                              float reach, uint32_t width, uint32_t height, uint32_t top, uint32_t rows,
                              const ClosestHits& closestHits) {

@@ -1,4 +1,4 @@
-// A picture of a scene, to see what rays see.
+// A shaded picture of a scene, to see what rays hit.
 #pragma once
 
 #include "pictures/image.h"
@@ -6,9 +6,9 @@
 
 namespace bvhio {
 
-/// Shades what a camera sees: flat normals, a lamp near the viewer, ambient light that nearby surfaces block
-/// (kAoReach of the diagonal), a colour per geometry. Each pixel averages 2 x 2 points; rows are traced in
-/// bands, so that memory stays small. Throws Error{usage} for a camera that looks nowhere.
+/// Draws a scene with flat normals, a lamp near the viewer, ambient light that nearby surfaces block (within
+/// kAoReach of the diagonal), and a colour for each geometry. Each pixel is the mean of 2 x 2 points. Rows
+/// are traced in bands, so that little memory is needed. Throws Error{usage} for an invalid camera.
 Image shadedImage(const Scene& scene, const Camera& camera, Resolution resolution,
                   const ClosestHits& closestHits);
 

@@ -15,7 +15,7 @@ std::string quoted(std::string_view text) {
 
 [[noreturn]] void refuse(std::string_view text, const std::string& why) {
     throw Error(ErrorKind::usage, "camera " + quoted(text) + ": " + why +
-                                      "; write EYE:TARGET[:FOV[:UP]], as in 0,1,5:0,1,0:60:0,1,0");
+                                      ": use EYE:TARGET[:FOV[:UP]], as in 0,1,5:0,1,0:60:0,1,0");
 }
 
 float parseNumber(std::string_view whole, std::string_view text) {
@@ -32,10 +32,10 @@ Vec3 parsePoint(std::string_view whole, std::string_view what, std::string_view 
     return {parseNumber(whole, parts[0]), parseNumber(whole, parts[1]), parseNumber(whole, parts[2])};
 }
 
-/// What is wrong with a camera, or nothing.
+/// Returns what is wrong with a camera; "" if nothing is.
 std::string fault(const Camera& c) {
     if (!isFinite(c.eye) || !isFinite(c.target) || !isFinite(c.up)) return "a coordinate is not finite";
-    if (!(c.fov >= 0.01f && c.fov <= 175)) return "the angle must lie between 0.01 and 175 degrees";
+    if (!(c.fov >= 0.01f && c.fov <= 175)) return "the angle must be from 0.01 to 175 degrees";
     const Vec3d forward = normalize(Vec3d(c.target) - Vec3d(c.eye));
     if (length(forward) == 0) return "eye and target are the same point";
     if (length(cross(forward, normalize(Vec3d(c.up)))) < 1e-6) return "up is zero or parallel to the view";
@@ -58,7 +58,7 @@ void append(std::string& text, Vec3 p) {
 Camera parseCamera(std::string_view text) {
     const auto parts = split(text, ':');
     if (parts.size() < 2 || parts.size() > 4)
-        refuse(text, "it has " + std::to_string(parts.size()) + " parts");
+        refuse(text, "it has " + std::to_string(parts.size()) + (parts.size() == 1 ? " part" : " parts"));
     Camera camera;
     camera.eye = parsePoint(text, "the eye", parts[0]);
     camera.target = parsePoint(text, "the target", parts[1]);
@@ -90,7 +90,7 @@ CameraFrame cameraFrame(const Camera& camera) {
 double halfTangent(double degrees) {
     constexpr double pi = 3.14159265358979323846;
     const double x = degrees * (pi / 360);
-    // The Taylor series of sine and cosine up to x^27: exact to a few units in the last place for x <= pi
+    // The Taylor series of sine and cosine up to x^27 are exact to a few units in the last place for x <= pi
     // / 2.
     double sine = 0, cosine = 0, term = 1;
     for (int n = 0; n < 28; n += 2) {

@@ -1,4 +1,4 @@
-// The pinhole camera of primary rays, and how the command line writes it.
+// The pinhole camera of primary rays, and its text on the command line.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace bvhio {
 
-/// A pinhole camera. `fov` is the full vertical angle in degrees; `up` need only not be parallel to the view.
+/// A pinhole camera. `fov` is the full vertical angle in degrees. `up` must not be parallel to the view.
 struct Camera {
     Vec3 eye;
     Vec3 target;
@@ -18,21 +18,22 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-/// Reads "EYE:TARGET[:FOV[:UP]]", points as x,y,z and the angle in degrees: "0,1,5:0,1,0:60:0,0,1". Where UP
-/// is left out it is +y, or -z for a view along y. Throws Error{usage} that says which part is wrong.
+/// Parses "EYE:TARGET[:FOV[:UP]]", with points as x,y,z and the angle in degrees: "0,1,5:0,1,0:60:0,0,1". The
+/// default of UP is +y, or -z for a view along y. Throws Error{usage} that says which part is wrong.
 Camera parseCamera(std::string_view text);
 
-/// The text that `parseCamera` reads back to the same bits.
+/// Returns the text from which `parseCamera` gets the same bits.
 std::string formatCamera(const Camera& camera);
 
-/// Unit vectors to the right, up and forwards of a camera. Throws Error{usage} for one that looks nowhere.
+/// Unit vectors to the right, up and forwards of a camera. cameraFrame throws Error{usage} for an invalid
+/// camera.
 struct CameraFrame {
     Vec3d right, up, forward;
 };
 CameraFrame cameraFrame(const Camera& camera);
 
-/// The tangent of half an angle given in degrees, between 0 and 180, from a series in double: that of libm
-/// differs by version.
+/// Returns the tangent of half an angle in degrees, between 0 and 180. Uses a series in double, since the
+/// results of libm differ between versions.
 double halfTangent(double degrees);
 
 /// Makes the rays through the centres of a picture's pixels.
@@ -40,7 +41,8 @@ class PrimaryRays {
   public:
     PrimaryRays(const Camera& camera, uint32_t width, uint32_t height);
 
-    /// The ray through column x, from the left, and row y, from the top. Its direction has unit length.
+    /// Returns the ray through column x, from the left, and row y, from the top. Its direction has unit
+    /// length.
     Ray ray(uint32_t x, uint32_t y) const;
 
   private:

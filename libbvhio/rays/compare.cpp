@@ -10,7 +10,7 @@ namespace bvhio {
 namespace {
 
 double relativeDifference(float a, float b) {
-    if (a == b) return 0;  // infinities too
+    if (a == b) return 0;  // equal infinities, too
     const double largest = std::max(std::fabs(double(a)), std::fabs(double(b)));
     const double difference = std::fabs(double(a) - b) / largest;
     return std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;

@@ -7,16 +7,16 @@
 namespace bvhio {
 namespace {
 
-/// The camera that looks from the side of `toViewer` and just fits every vertex, with a margin: each side of
-/// the view pyramid is pushed outwards as far as some vertex needs, and the eye is where opposite sides meet,
-/// taking the farther of the two pairs.
+/// Returns the camera that looks from the direction `toViewer` and just fits every vertex, with a margin.
+/// Each side of the view pyramid is pushed outwards until it includes every vertex. Opposite sides meet in
+/// two lines, and the eye is as far away as the farther of the two.
 Camera frameObject(const Scene& scene, const Aabb& box, double aspect, Vec3d toViewer) {
     Camera camera;
     camera.fov = 35;
     const Vec3d center(box.center());
     const Vec3d forward = normalize(toViewer) * -1, right = normalize(cross(forward, Vec3d(camera.up)));
     const Vec3d up = cross(right, forward);
-    const double tall = halfTangent(camera.fov) * 0.94, wide = tall * aspect;  // 6% stay free around it
+    const double tall = halfTangent(camera.fov) * 0.94, wide = tall * aspect;  // a margin of 6%
     double r = -1e300, l = -1e300, t = -1e300, b = -1e300, nearest = 1e300;
     const auto fit = [&](Vec3 vertex) {
         const Vec3d p = Vec3d(vertex) - center;
@@ -38,11 +38,11 @@ Camera frameObject(const Scene& scene, const Aabb& box, double aspect, Vec3d toV
     return camera;
 }
 
-constexpr double kNear = 0.05;  // of the diagonal: what is closer stands in the way
+constexpr double kNear = 0.05;  // of the diagonal: closer surfaces block the view
 
-/// Whether rays that leave a point in all directions see the inside of a room: most hit something, from its
-/// front, and not close by. In solid or hollow bodies they meet backs; around and between the parts of
-/// objects they escape or end soon.
+/// Returns whether rays that leave a point in all directions see the inside of a room: most rays hit a
+/// surface, from its front, and not close by. In solid or hollow bodies rays hit backs. Around and between
+/// the parts of objects they escape or end soon.
 bool isInRoom(const Scene& scene, std::span<const Ray> rays, std::span<const Hit> hits, double diagonal) {
     size_t met = 0, fronts = 0;
     double sum = 0;
@@ -55,8 +55,8 @@ bool isInRoom(const Scene& scene, std::span<const Ray> rays, std::span<const Hit
     return 10 * met >= 7 * hits.size() && 10 * fronts >= 8 * met && sum > 0.1 * diagonal * double(met);
 }
 
-/// The directions to the 26 neighbours of a cube in a grid of them, straight down first and straight up
-/// second.
+/// Returns the directions to the 26 neighbours of a cell in a grid of cubes. The first is straight down, the
+/// second straight up.
 std::vector<Vec3> neighbourDirections() {
     std::vector<Vec3> directions = {{0, -1, 0}, {0, 1, 0}};
     for (int x = -1; x <= 1; ++x)
@@ -66,8 +66,9 @@ std::vector<Vec3> neighbourDirections() {
     return directions;
 }
 
-/// The middles of a grid's cells in the box that lie in rooms, each moved down to where a person's eyes would
-/// be: two fifths of the way from what is below to what is above. Empty when the scene is not an interior.
+/// Returns positions of eyes: the centres of those cells of a grid in the box that are in rooms, each moved
+/// to the height of a person's eyes, two fifths of the way from the floor to the ceiling. Empty if the scene
+/// is not an interior.
 std::vector<Vec3> eyesInRooms(const Scene& scene, const Aabb& box, const ClosestHits& closestHits) {
     constexpr int kCells = 8;
     const std::vector<Vec3> directions = neighbourDirections();
@@ -93,19 +94,19 @@ std::vector<Vec3> eyesInRooms(const Scene& scene, const Aabb& box, const Closest
         eyes.push_back(eye);
     }
     if (eyes.size() * 7 < kCells * kCells * kCells)
-        eyes.clear();  // a seventh of the box is the least for an interior
+        eyes.clear();  // in an interior, at least a seventh of the cells are in rooms
     return eyes;
 }
 
-/// How good a view is, from the primary rays of a coarse picture: deep, of fronts, not hidden by something
-/// close, and with much to see: neighbouring rays that meet surfaces of different slope or one far behind the
-/// other.
+/// Rates a view by the primary rays of a coarse picture. A good view is deep, shows the fronts of surfaces,
+/// is not blocked by close surfaces, and has many edges: neighbouring rays that hit surfaces of different
+/// slope, or one far behind the other.
 double viewScore(const Scene& scene, std::span<const Ray> rays, std::span<const Hit> hits, uint32_t width,
                  double diagonal) {
     double depth = 0, blocked = 0, backs = 0, edges = 0;
     std::vector<Vec3d> normals(hits.size());
     for (size_t i = 0; i < hits.size(); ++i) {
-        const double t = hits[i].isMiss() ? 0 : hits[i].t / diagonal;  // the void outside is no view
+        const double t = hits[i].isMiss() ? 0 : hits[i].t / diagonal;  // a view out of the scene has no depth
         depth += t;
         blocked += t < kNear;
         if (hits[i].isMiss()) continue;
@@ -124,7 +125,7 @@ double viewScore(const Scene& scene, std::span<const Ray> rays, std::span<const 
     return depth / n * (1 - blocked / n) * (1 - backs / n) * (0.3 + edges / (2 * n));
 }
 
-/// The best of the views from each eye into sixteen directions, a little downwards.
+/// Returns the best of the views from each eye in sixteen directions, slightly downwards.
 Camera frameRoom(const Scene& scene, std::span<const Vec3> eyes, double aspect, double diagonal,
                  const ClosestHits& closestHits) {
     const uint32_t height = 9, width = uint32_t(std::clamp(height * aspect, 1.0, 64.0));

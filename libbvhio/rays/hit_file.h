@@ -1,5 +1,5 @@
 // Hit files (.hits): "BVHHITS1", uint64 count, then per ray float32 t, u, v, uint32 primitive, geometry,
-// instance; little-endian. And the hash of hits, which tells in a word whether two runs agree.
+// instance; little-endian. And the hash of hits, one number by which runs can be compared.
 #pragma once
 
 #include <limits>
@@ -12,9 +12,10 @@
 
 namespace bvhio {
 
-/// A hit in a scene's own ids, which no builder, form or layout changes: 24 bytes, stored as is. `primitive`
-/// is the triangle within its `geometry`, both in source order; `instance` counts those of an instanced
-/// scene, and is 0 in a plain one. A miss has all three ids 0xFFFFFFFF, t infinite and u = v = 0.
+/// A hit with ids of the source scene, which no builder, form or layout changes; 24 bytes, stored as is.
+/// `primitive` is the number of the triangle within its `geometry`, both in source order. `instance` is the
+/// number of the instance in an instanced scene, and 0 in a plain one. In a miss all three ids are
+/// 0xFFFFFFFF, t is infinite and u = v = 0.
 struct HitRecord {
     float t = std::numeric_limits<float>::infinity();
     float u = 0, v = 0;
@@ -24,17 +25,17 @@ struct HitRecord {
 };
 static_assert(sizeof(HitRecord) == 24);
 
-/// The records of hits in `scene`, in order.
+/// Returns the records of hits in `scene`, in order.
 std::vector<HitRecord> hitRecords(const Scene& scene, std::span<const Hit> hits);
 
-/// The bytes of a hit file.
+/// Returns the bytes of a hit file.
 std::vector<std::byte> encodeHits(std::span<const HitRecord> records);
 
-/// Reads a whole hit file; `name` is for messages. Throws Error{invalid} for anything but a header and
-/// exactly as many hits as it says.
+/// Reads a whole hit file; `name` is for messages. Throws Error{invalid} if it is not a header followed by
+/// exactly as many hits as the header says.
 std::vector<HitRecord> decodeHits(std::span<const std::byte> bytes, const std::string& name);
 
-/// XXH3-64 of the records as a hit file stores them, without its header.
+/// Returns XXH3-64 of the records as in a hit file, without the header.
 uint64_t hitHash(std::span<const HitRecord> records);
 
 }  // namespace bvhio

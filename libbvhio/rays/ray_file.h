@@ -10,11 +10,11 @@
 
 namespace bvhio {
 
-/// The bytes of a ray file.
+/// Returns the bytes of a ray file.
 std::vector<std::byte> encodeRays(std::span<const Ray> rays);
 
-/// Reads a whole ray file; `name` is for messages. Any float is allowed: odd rays miss by definition (see
-/// Ray). Throws Error{invalid} for anything but a header and exactly as many rays as it says.
+/// Reads a whole ray file; `name` is for messages. Any float is allowed: invalid rays miss by definition (see
+/// Ray). Throws Error{invalid} if it is not a header followed by exactly as many rays as the header says.
 std::vector<Ray> decodeRays(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace bvhio

@@ -1,6 +1,6 @@
 // The Morton order follows Aila and Karras, "Architecture Considerations for Tracing Incoherent Rays" (HPG
-// 2010), who sort by origin and direction interleaved. It departs in size, 63 bits instead of 192, and puts
-// the octant first.
+// 2010), who sort by the interleaved bits of origin and direction. Departures: keys have 63 bits instead of
+// 192, and start with the octant.
 #include "rays/ray_order.h"
 
 #include <algorithm>
@@ -22,14 +22,14 @@ std::vector<uint32_t> given(std::span<const Ray> rays, uint64_t) {
     return order;
 }
 
-/// Bits 0 to 9 of x moved to bits 0, 6, 12 and so on.
+/// Moves bits 0 to 9 of x to bits 0, 6, 12 and so on.
 uint64_t spread(uint64_t x) {
     uint64_t spread = 0;
     for (int bit = 0; bit < kBits; ++bit) spread |= ((x >> bit) & 1) << (6 * bit);
     return spread;
 }
 
-/// x of [0, 1] as an integer of kBits bits; 0 for NaN.
+/// Converts x in [0, 1] to an integer of kBits bits; NaN gives 0.
 uint64_t quantize(double x) {
     constexpr double top = (1 << kBits) - 1;
     return x > 0 ? uint64_t(std::min(x, 1.0) * top) : 0;
@@ -43,7 +43,7 @@ uint64_t mortonKey(const Ray& ray, const Aabb& origins) {
     for (int axis = 0; axis < 3; ++axis) {
         const double size = double(origins.max[axis]) - origins.min[axis];
         const double at =
-            (double(ray.origin[axis]) - origins.min[axis]) / size;  // NaN, so 0, where all are the same
+            (double(ray.origin[axis]) - origins.min[axis]) / size;  // NaN, and so 0, if all origins are equal
         octant = octant * 2 + std::signbit(ray.direction[axis]);
         key |= spread(quantize(at)) << (5 - axis);
         key |= spread(quantize(std::fabs(double(ray.direction[axis])) / l)) << (2 - axis);
@@ -65,7 +65,7 @@ std::vector<uint32_t> morton(std::span<const Ray> rays, uint64_t seed) {
     return order;
 }
 
-/// Fisher and Yates.
+/// Shuffles by Fisher and Yates.
 std::vector<uint32_t> shuffled(std::span<const Ray> rays, uint64_t seed) {
     std::vector<uint32_t> order = given(rays, seed);
     Random random(seed);
@@ -75,8 +75,8 @@ std::vector<uint32_t> shuffled(std::span<const Ray> rays, uint64_t seed) {
 
 constexpr RayOrderChoice kRayOrders[] = {
     {"given", "in the order of the set", given},
-    {"morton", "neighbours start close and go the same way", morton},
-    {"shuffled", "at random", shuffled},
+    {"morton", "along a Morton curve through origins and directions", morton},
+    {"shuffled", "at random, the worst case for caches", shuffled},
 };
 
 }  // namespace

@@ -14,11 +14,11 @@ namespace {
 constexpr size_t kGrain = 4096;  // rays per task
 
 Error tooMany(uint64_t rays) {
-    return {ErrorKind::usage,
-            std::to_string(rays) + " rays are more than the " + std::to_string(kMaxRays) + " allowed"};
+    return {ErrorKind::usage, std::to_string(rays) + " rays are too many: at most " +
+                                  std::to_string(kMaxRays) + " are allowed"};
 }
 
-/// The picture whose pixels make no more than options.count rays, or the one asked for.
+/// Returns the picture whose pixels make at most options.count rays, or the requested picture if count is 0.
 Resolution pictureOf(const RaySetOptions& options, uint64_t raysPerPixel) {
     Resolution r = options.resolution;
     if (options.count > 0) {
@@ -28,8 +28,8 @@ Resolution pictureOf(const RaySetOptions& options, uint64_t raysPerPixel) {
         if (r.width > 0) r.height = uint32_t(pixels / r.width);
         if (r.width == 0)
             throw Error(ErrorKind::usage, "count " + std::to_string(options.count) +
-                                              " is too small: a hit makes " + std::to_string(raysPerPixel) +
-                                              " rays");
+                                              " is too small: each hit makes " +
+                                              std::to_string(raysPerPixel) + " rays");
     }
     if (uint64_t(r.width) * r.height > kMaxRays / raysPerPixel)
         throw tooMany(uint64_t(r.width) * r.height * raysPerPixel);
@@ -57,14 +57,18 @@ RaySet primary(const RaySetSource& source) {
     return primary(source, pictureOf(source.options, 1));
 }
 
-/// Rays that leave the surfaces seen by the camera: `make` gets a point and the stream of the ray to make.
+/// Makes rays that leave the surfaces seen by the camera. `make` gets a point and the random stream of the
+/// ray, and returns the ray.
 template <class Make>
 RaySet fromSurfaces(const RaySetSource& source, uint32_t raysPerPixel, const Make& make) {
+    // Find the surfaces.
     RaySet set = primary(source, pictureOf(source.options, raysPerPixel));
     const std::vector<Hit> hits = source.closestHits(set.rays);
     std::vector<uint32_t> seen;  // pixels that see something
     for (const uint32_t pixel : set.pixels)
         if (!hits[pixel].isMiss()) seen.push_back(pixel);
+
+    // Make the rays of each pixel that sees one.
     const std::vector<Ray> primaryRays = std::move(set.rays);
     set.rays.assign(seen.size() * raysPerPixel, {});
     set.pixels.assign(set.rays.size(), 0);
@@ -90,7 +94,7 @@ RaySet shadow(const RaySetSource& source) {
         const Vec3d way = light - Vec3d(point.origin);
         Ray ray;
         ray.direction = Vec3(normalize(way));
-        ray.tMax = float(length(way) * (1 - 0x1p-10));  // before the light, whatever it hangs on
+        ray.tMax = float(length(way) * (1 - 0x1p-10));  // ends before the light, which may be on a surface
         return ray;
     });
     set.anyHitIsEnough = true;
@@ -117,9 +121,9 @@ RaySet diffuse(const RaySetSource& source) {
     });
 }
 
-/// A uniform point on the box's surface with a cosine-weighted direction inwards is a uniform line through a
-/// convex body (Cauchy-Crofton); the ray starts before that point, outside the box, so that surfaces in the
-/// box's sides are crossed too.
+/// Makes uniform lines through the scene's box. A uniform point on the surface of a convex body with a
+/// cosine-weighted direction inwards is a uniform line through the body (Cauchy-Crofton). The ray starts
+/// before that point, outside the box, so that it also crosses surfaces in the sides of the box.
 RaySet randomLines(const RaySetSource& source) {
     RaySet set;
     set.camera = source.camera;
@@ -130,14 +134,14 @@ RaySet randomLines(const RaySetSource& source) {
     set.rays.resize(count);
     const Vec3d low(source.bounds.min), extent = Vec3d(source.bounds.max) - low;
     const double diagonal = length(extent);
-    // In scenes as large as floats reach, no farther back than leaves origin and hits finite.
+    // In very large scenes rays start closer to the box, so that origins and hits stay finite.
     double largest = 0;
     for (const Vec3 corner : {source.bounds.min, source.bounds.max})
         for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::fabs(double(corner[axis])));
     const double back = std::clamp(kLargestFloat - std::max(largest, diagonal), 0.0, diagonal);
     double area[3] = {extent.y * extent.z, extent.z * extent.x, extent.x * extent.y};
     if (area[0] + area[1] + area[2] == 0)
-        area[0] = area[1] = area[2] = 1;  // a line or a point: all sides alike
+        area[0] = area[1] = area[2] = 1;  // a line or a point: all sides count the same
     parallelChunks(count, kGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             Random random = randomStream(source.options.seed, i);
@@ -158,9 +162,9 @@ RaySet randomLines(const RaySetSource& source) {
 
 constexpr RaySetChoice kRaySets[] = {
     {"primary", "one ray through each pixel of a camera", primary},
-    {"shadow", "from what the camera sees to a light", shadow},
-    {"ao", "short rays over the hemisphere of what the camera sees", ao},
-    {"diffuse", "one diffuse bounce off what the camera sees", diffuse},
+    {"shadow", "from the surfaces that the camera sees to a light", shadow},
+    {"ao", "short rays over the hemisphere of each visible surface point", ao},
+    {"diffuse", "one diffuse bounce off each visible surface point", diffuse},
     {"random", "uniform lines through the scene's box", randomLines},
 };
 

@@ -1,5 +1,5 @@
-// What ray and hit files have in common: an eight-character signature, uint64 count, and count records of
-// plain data.
+// The common format of ray and hit files: a signature of eight characters, a uint64 count, and `count`
+// records of plain data.
 #pragma once
 
 #include <bit>
@@ -27,8 +27,8 @@ std::vector<std::byte> encodeRecords(const char (&signature)[9], std::span<const
     return bytes;
 }
 
-/// Throws Error{invalid} for anything but a header and exactly as many records as it says. `what` names a
-/// record ("rays").
+/// Reads a whole file. Throws Error{invalid} if it is not a header followed by exactly as many records as the
+/// header says. `what` names the records ("rays").
 template <class Record>
 std::vector<Record> decodeRecords(const char (&signature)[9], std::span<const std::byte> bytes,
                                   const std::string& what, const std::string& name) {

@@ -20,7 +20,8 @@ SurfacePoint surfacePoint(const Scene& scene, const Ray& ray, const Hit& hit) {
         largest =
             std::fmax(largest, std::fmax(std::fabs(double(box.min[axis])), std::fabs(double(box.max[axis]))));
     if (scene.isInstanced()) {
-        // The intersection test works in the mesh's space, which may lie far from its place in the world.
+        // The intersection test works in the mesh's space, where the mesh may be far from its place in the
+        // world.
         const SceneInstance& instance = scene.instances[scene.instanceOf(hit.primitive)];
         const uint32_t triangle =
             scene.meshes[instance.mesh].firstTriangle + hit.primitive - instance.firstPrimitive;

@@ -1,4 +1,4 @@
-// Where a ray hit a surface, precise enough to start other rays there.
+// The point where a ray hit a surface, precise enough to start other rays there.
 #pragma once
 
 #include "core/ray.h"
@@ -7,24 +7,24 @@
 
 namespace bvhio {
 
-/// A point from which rays into the half space of `normal` do not meet the surface they leave.
+/// A point from which rays into the half space of `normal` do not hit the surface that they leave.
 struct SurfacePoint {
     Vec3 origin;
     Vec3d normal;  // unit, of the flat triangle, towards the viewer
 };
 
-/// The unit normal of a triangle in its winding's sense, or zero for one without area.
+/// Returns the unit normal of a triangle by its winding, or zero for a triangle without area.
 inline Vec3d triangleNormal(const Triangle& t) {
     return normalize(cross(Vec3d(t.v1) - Vec3d(t.v0), Vec3d(t.v2) - Vec3d(t.v0)));
 }
 
-/// The point of a hit (not a miss), from its barycentric weights: unlike origin + t * direction it does not
-/// drift off the triangle with distance. It is lifted along the normal by 2^-19 of the triangle's largest
-/// coordinate, 32 times what rounding the point to float may move it and what the intersection test of a ray
-/// starting there may err.
+/// Returns the point of a hit (not a miss), from its barycentric weights. Unlike origin + t * direction, it
+/// does not drift off the triangle with distance. It is lifted along the normal by 2^-19 of the triangle's
+/// largest coordinate: 32 times the distance by which rounding to float may move it, and 32 times the error
+/// of the intersection test of a ray that starts there.
 SurfacePoint surfacePoint(const Scene& scene, const Ray& ray, const Hit& hit);
 
-/// Calls function(v) with the vertices of the instance's triangles where they stand in the world.
+/// Calls function(v) with the vertices of the instance's triangles, placed in the world.
 template <class Function>
 void forEachPlacedVertex(const Scene& scene, const SceneInstance& instance, const Function& function) {
     const SceneMesh& mesh = scene.meshes[instance.mesh];
@@ -35,7 +35,7 @@ void forEachPlacedVertex(const Scene& scene, const SceneInstance& instance, cons
     }
 }
 
-/// The box in the world of all triangles.
+/// Returns the box of all triangles in the world.
 Aabb triangleBounds(const Scene& scene);
 
 }  // namespace bvhio

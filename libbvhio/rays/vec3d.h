@@ -1,4 +1,4 @@
-// Vec3 in double, for what is computed once per ray and then rounded: bases, normals, hit points.
+// Vec3 in double, for values that are computed once per ray and then rounded: bases, normals, hit points.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace bvhio {
 
-/// A point or a direction in double. Only + - * / and sqrt touch it, which IEEE 754 rounds the same way on
+/// A point or a direction in double. Only + - * / and sqrt are used, which IEEE 754 rounds the same way on
 /// every machine.
 struct Vec3d {
     double x = 0, y = 0, z = 0;
@@ -21,7 +21,7 @@ struct Vec3d {
 
 inline constexpr double kLargestFloat = std::numeric_limits<float>::max();
 
-/// Rounds to float; what would overflow becomes the largest float.
+/// Rounds to float. Values that would overflow become the largest float.
 constexpr Vec3 clampToFloat(Vec3d p) {
     const auto clamp = [](double x) {
         return x < -kLargestFloat ? -kLargestFloat : x > kLargestFloat ? kLargestFloat : x;
@@ -47,8 +47,8 @@ constexpr Vec3d cross(Vec3d a, Vec3d b) {
 inline double length(Vec3d a) {
     return std::sqrt(dot(a, a));
 }
-/// The unit vector along `a`; the zero vector stays zero. Products of floats neither overflow nor vanish in
-/// double.
+/// Returns the unit vector along `a`, or zero for the zero vector. In double, products of floats neither
+/// overflow nor vanish.
 inline Vec3d normalize(Vec3d a) {
     const double l = length(a);
     return l > 0 ? Vec3d{a.x / l, a.y / l, a.z / l} : a;

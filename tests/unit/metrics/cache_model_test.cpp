@@ -54,7 +54,7 @@ TEST(Cache, nextLevelWithShorterLinesIsAskedForEachOfThem) {
     EXPECT_EQ(cache.counts(1), (CacheCounts{0, 4}));
 }
 
-/// The same by the book: each set a list, most recent first.
+/// Counts misses in a simple way: each set is a list, the most recent line first.
 CacheCounts slowly(const CacheLevel& level, std::span<const std::pair<uint64_t, uint64_t>> fetches) {
     std::vector<std::list<uint64_t>> sets(std::min<uint64_t>(level.sets(), 1 << 16));  // more stay empty
     CacheCounts counts;
@@ -80,7 +80,8 @@ TEST(Cache, agreesWithASlowOne) {
         const uint64_t address = std::min<uint64_t>(around + random.below(600), kSpan - 1);
         fetches.emplace_back(address, 1 + random.below(uint32_t(std::min<uint64_t>(100, kSpan - address))));
     }
-    // One set, one way, sets that are no power of two, and levels of which a part or most stays empty.
+    // One set, one way, a number of sets that is not a power of two, and levels that stay partly or mostly
+    // empty.
     for (const CacheLevel& level :
          {CacheLevel{1024, 64, 16}, CacheLevel{1024, 64, 1}, CacheLevel{2048, 64, 8}, CacheLevel{1152, 32, 6},
           CacheLevel{2400 * 16, 16, 8}, CacheLevel{uint64_t(1) << 40, 64, 8},
@@ -135,7 +136,7 @@ TEST(CacheText, isRefusedWhereItMakesNoCache) {
         EXPECT_THROW(parseCaches(text), Error) << text;
 }
 
-/// What a listener is told, one after the other.
+/// Records the fetches that a listener receives.
 struct Recorder : FetchListener {
     std::vector<std::array<uint64_t, 4>> heard;
     uint64_t ray = 0;
@@ -178,7 +179,7 @@ TEST(Fetches, areToldRayByRayWithTheirPlaces) {
     EXPECT_EQ(tracer.arraySizes(), (FetchedArraySizes{128, 8, 24, 72}));
 }
 
-// What says where a leaf ends is read, too: the array behind the slots.
+// The array after the slots, which says where leaves end, is read, too.
 TEST(Fetches, tellWhereLeavesOfShortRecordsEnd) {
     const Triangle near{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, far{{5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
     const Scene scene = test::sceneOf({near, near, far, far});
@@ -224,7 +225,7 @@ TEST(CacheModel, countsEachArrayApartAndAllTogether) {
     EXPECT_EQ(report["primitives"][0]["misses"], 0);
     EXPECT_EQ(report["shared"][0]["misses"], 11);
     EXPECT_EQ(report["shared"][0]["hits"], 29);
-    // Pages of 4096: nodes and vertices evict each other.
+    // With lines of 4096 bytes, nodes and vertices evict each other.
     EXPECT_EQ(report["shared"][2]["misses"], 40);
 }
 
@@ -247,7 +248,7 @@ TEST(CacheModel, countsTheSameForAnyNumberOfThreads) {
         unheard = tracer.measure(rays, Query::closest);
         EXPECT_EQ(measured[0].counts, unheard.counts) << form.name;
         EXPECT_EQ(measured[0].locality, unheard.locality) << form.name;
-        // A fetch of a record touches at least one line; a triangle has five parts.
+        // A fetch of a record touches at least one line. A triangle takes five fetches.
         const TraversalCounts& counts = measured[0].counts;
         EXPECT_GE(reports[0]["hits"].get<uint64_t>() + reports[0]["misses"].get<uint64_t>(), counts.records);
         EXPECT_EQ(reports[0]["primitives"][0]["hits"].get<uint64_t>() +

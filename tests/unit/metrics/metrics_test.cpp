@@ -11,8 +11,8 @@ namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-/// Two leaves: triangles 0 and 1 at z = 0 and z = 1 above the unit square, triangle 2 far along x. All seen
-/// from above by rays along -z.
+/// A tree of two leaves: triangles 0 and 1 are at z = 0 and z = 1 above the unit square, and triangle 2 is
+/// far along x. Rays along -z see all of them from above.
 struct TwoLeaves {
     Scene scene = test::sceneOf({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                                  {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}},

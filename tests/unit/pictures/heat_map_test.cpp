@@ -7,7 +7,7 @@
 namespace bvhio {
 namespace {
 
-/// Relative luminance of an sRGB colour (IEC 61966-2-1).
+/// Returns the relative luminance of an sRGB colour (IEC 61966-2-1).
 double luminance(Rgb color) {
     double linear[3];
     for (int i = 0; i < 3; ++i) {
@@ -17,7 +17,7 @@ double luminance(Rgb color) {
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2];
 }
 
-// A map with a bump, as rainbows have, would show a dear pixel darker than a cheap one.
+// Without a steady rise, as in a rainbow, an expensive pixel could look darker than a cheap one.
 TEST(HeatMap, getsLighterAllTheWay) {
     for (int i = 0; i < 200; ++i)
         EXPECT_LE(luminance(heatColor(i / 200.0)), luminance(heatColor((i + 1) / 200.0)) + 1e-9) << i;

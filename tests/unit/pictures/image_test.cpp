@@ -27,7 +27,7 @@ Image someImage(uint32_t width, uint32_t height) {
     return image;
 }
 
-// Fails if rows are shifted, channels swapped or a filter is declared that was not applied.
+// Fails if rows are shifted, channels are swapped, or a declared filter was not applied.
 TEST(Png, decodesToTheSamePixels) {
     for (const auto& [width, height] : {std::pair{1u, 1u}, {1u, 9u}, {9u, 1u}, {101u, 67u}}) {
         const Image image = someImage(width, height), back = decode(encodePng(image));

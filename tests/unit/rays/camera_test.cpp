@@ -21,8 +21,8 @@ std::string messageOf(const std::string& text) {
 
 TEST(Camera, saysWhatIsWrong) {
     const std::pair<const char*, const char*> cases[] = {
-        {"", "it has 1 parts"},
-        {"1,2,3", "it has 1 parts"},
+        {"", "it has 1 part:"},
+        {"1,2,3", "it has 1 part:"},
         {"1,2,3:4,5", "the target '4,5' is not three numbers"},
         {"1,2,3,4:4,5,6", "the eye '1,2,3,4' is not three numbers"},
         {"1,2,x:4,5,6", "'x' is not a finite number"},
@@ -30,8 +30,8 @@ TEST(Camera, saysWhatIsWrong) {
         {"1,2,nan:4,5,6", "'nan' is not a finite number"},
         {"1,2,1e99:4,5,6", "'1e99' is not a finite number"},
         {"1,2,3:4,5,6:", "'' is not a finite number"},
-        {"1,2,3:4,5,6:180", "the angle must lie between 0.01 and 175 degrees"},
-        {"1,2,3:4,5,6:0", "the angle must lie between 0.01 and 175 degrees"},
+        {"1,2,3:4,5,6:180", "the angle must be from 0.01 to 175 degrees"},
+        {"1,2,3:4,5,6:0", "the angle must be from 0.01 to 175 degrees"},
         {"1,2,3:1,2,3", "eye and target are the same point"},
         {"0,0,0:0,0,5:60:0,0,2", "up is zero or parallel to the view"},
         {"0,0,0:0,0,5:60:0,0,0", "up is zero or parallel to the view"},

@@ -15,7 +15,7 @@ TEST(Compare, refusesOtherNumbersOfRays) {
     EXPECT_THROW(compareHits(std::vector<HitRecord>(2), std::vector<HitRecord>(3)), Error);
 }
 
-// Each field must count: one that is left out would let a wrong traversal pass.
+// Each field must be compared. Without one of them a wrong traversal could pass.
 TEST(Compare, seesADifferenceInEachField) {
     std::vector<HitRecord> others(6, kHit);
     others[0].t = std::nextafter(2.0f, 3.0f);

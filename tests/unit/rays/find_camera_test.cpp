@@ -10,7 +10,7 @@
 namespace bvhio {
 namespace {
 
-/// A box of 12 triangles facing outwards, or inwards.
+/// Returns a box of 12 triangles that face outwards, or inwards.
 void addBox(std::vector<Vec3>& vertices, std::vector<TriangleIndices>& triangles, const Aabb& box,
             bool inwards) {
     const auto first = uint32_t(vertices.size());
@@ -27,7 +27,7 @@ void addBox(std::vector<Vec3>& vertices, std::vector<TriangleIndices>& triangles
         }
 }
 
-/// A hall, long in x, with two blocks at its +x end.
+/// Returns a hall that is long in x, with two blocks at its +x end.
 Scene makeHall(bool inwards) {
     std::vector<Vec3> vertices;
     std::vector<TriangleIndices> triangles;
@@ -37,8 +37,8 @@ Scene makeHall(bool inwards) {
     return makeScene(std::move(vertices), std::move(triangles));
 }
 
-/// The largest |x| and |y| of the scene's vertices on the picture, where 1 is the border; infinite for one
-/// behind the eye.
+/// Returns the largest |x| and |y| of the scene's vertices in the picture, where 1 is the border. Infinity if
+/// a vertex is behind the eye.
 std::pair<double, double> reachOnPicture(const Scene& scene, const Camera& camera, double aspect) {
     const CameraFrame frame = cameraFrame(camera);
     double x = 0, y = 0;
@@ -68,10 +68,10 @@ TEST(FindCamera, looksAlongAHallFromInside) {
     EXPECT_TRUE(triangleBounds(hall).contains({camera.eye, camera.eye}));
     const Vec3d forward = cameraFrame(camera).forward;
     EXPECT_GT(std::fabs(forward.x), 0.8);
-    EXPECT_GT(forward.x > 0 ? 20 - camera.eye.x : camera.eye.x, 12);  // most of it lies ahead
+    EXPECT_GT(forward.x > 0 ? 20 - camera.eye.x : camera.eye.x, 12);  // most of the hall is ahead
 }
 
-// The same walls facing outwards are a solid block: from within one would see but the backs of its sides.
+// The same walls facing outwards are a solid block: from inside one would see only the backs of its sides.
 TEST(FindCamera, staysOutsideASolid) {
     const Scene block = makeHall(false);
     const Camera camera = findCamera(block, 4.0 / 3, bruteForce(block));
@@ -92,7 +92,7 @@ TEST(FindCamera, isValidForDegenerateScenes) {
     for (const auto& vertices : triples) {
         const Scene scene = makeScene(vertices, {{0, 1, 2}});
         const Camera camera = findCamera(scene, 1.5, bruteForce(scene));
-        EXPECT_EQ(parseCamera(formatCamera(camera)), camera);  // which refuses what is not sensible
+        EXPECT_EQ(parseCamera(formatCamera(camera)), camera);  // parseCamera rejects invalid cameras
     }
 }
 

@@ -20,8 +20,8 @@ TEST(HitFile, refusesRaysAndCutFiles) {
     EXPECT_EQ(decodeHits(bytes, "x").size(), 2u);
 }
 
-// Fails if a triangle's index in the scene leaks out: dropped triangles and other geometries must not change
-// names.
+// Fails if a hit has a triangle's index in the scene: dropped triangles and other geometries must not change
+// ids.
 TEST(HitFile, namesTrianglesByGeometryAndSource) {
     Scene scene = makeScene(std::vector<Vec3>(3), std::vector<TriangleIndices>(5, {0, 1, 2}));
     scene.geometries = {{"a", 0, 2}, {"points", 2, 0}, {"b", 2, 3}};

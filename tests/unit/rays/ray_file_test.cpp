@@ -40,7 +40,7 @@ TEST(RayFile, refusesMoreBytesThanItAnnounces) {
     EXPECT_EQ(refusalOf(bytes), "test.rays: 1 bytes follow its 2 rays");
 }
 
-// A count near 2^64 must neither wrap around in a product nor be allocated.
+// A count near 2^64 must not overflow in a product, and must not be allocated.
 TEST(RayFile, refusesHugeCounts) {
     auto bytes = encodeRays(std::vector<Ray>(1));
     for (const uint64_t count : {uint64_t(2), uint64_t(1) << 59, (uint64_t(1) << 59) + 1, ~uint64_t(0)}) {

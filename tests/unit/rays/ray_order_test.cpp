@@ -20,7 +20,7 @@ std::vector<Ray> someRays() {
             ray.direction[axis] = random.uniform(-1, 1);
         }
     }
-    // Rays that miss by definition must not upset a sort either.
+    // Rays that miss by definition must not break a sort either.
     rays[7].origin.x = std::nanf("");
     rays[8].origin.y = -std::numeric_limits<float>::infinity();
     rays[9].direction = {};
@@ -70,7 +70,7 @@ TEST(RayOrder, mortonPutsNeighboursTogether) {
     EXPECT_LE(turns, 8);  // the octant comes first
 }
 
-// Rays of one camera share an origin: the order must then follow the directions.
+// Rays of one camera share an origin. Then the order must follow the directions.
 TEST(RayOrder, mortonSortsRaysOfOneOriginByDirection) {
     auto rays = someRays();
     for (Ray& ray : rays) ray.origin = {1, 2, 3};

@@ -67,8 +67,8 @@ TEST(RaySets, countBoundsEachSet) {
         }
 }
 
-// Frozen: the same rays on every machine, compiler and number of threads. A change here changes what every
-// figure measures.
+// These hashes are frozen: rays are the same for every machine, compiler and number of threads. A change here
+// changes what all figures measure.
 TEST(RaySets, areTheSameForAnyThreadsAndFrozen) {
     const Scene ball = makeBall(1, {0.25f, -3, 100});
     const std::map<std::string_view, uint64_t> frozen = {{"primary", 0x8B2B499DB9B683B8ull},
@@ -92,7 +92,7 @@ TEST(RaySets, areTheSameForAnyThreadsAndFrozen) {
     }
 }
 
-// From the lit side of a convex body no ray may meet the body again, at any size and place.
+// From the lit side of a convex body no ray may hit the body again, at any size and place.
 TEST(RaySets, secondaryRaysLeaveTheirSurface) {
     for (const float scale : {1e-6f, 0.2f, 1.0f, 1e6f})
         for (const float away : {0.0f, 100.0f}) {
@@ -139,7 +139,7 @@ TEST(RaySets, aoIsAsLongAsDocumented) {
     EXPECT_TRUE(set.anyHitIsEnough);
 }
 
-// Fails if the shadow ray overshoots the light or ends short of what shades it.
+// Fails if the shadow ray goes beyond the light, or ends before the surface that casts the shadow.
 TEST(RaySets, shadowRaysEndBeforeTheLight) {
     const Scene ball = makeBall(1, {});
     const RaySetOptions options{.resolution = {20, 15}, .camera = kCamera};
@@ -155,8 +155,8 @@ TEST(RaySets, shadowRaysEndBeforeTheLight) {
 }
 
 TEST(RaySets, randomLinesCrossTheBoxEvenly) {
-    // Of the lines that meet a convex body, those that meet one inside it are as many as its share of the
-    // surface.
+    // Of the lines that meet a convex body, the fraction that meets another one inside it is the ratio of
+    // their surfaces.
     const Scene outer = makeScene({{0, 0, 0}, {2, 4, 8}, {2, 0, 8}}, {{0, 1, 2}});
     const RaySet set = makeRaySet("random", outer, {.count = 40000, .camera = kCamera}, bruteForce(outer));
     const Aabb inner{{1, 1, 1}, {2, 3, 2}};
@@ -174,8 +174,8 @@ TEST(RaySets, randomLinesCrossTheBoxEvenly) {
     EXPECT_NEAR(crossed / 40000.0, halfArea(inner) / halfArea({{0, 0, 0}, {2, 4, 8}}), 0.006);
 }
 
-// Fails if rays start so far back, or the light stands so far off, that the place overflows to infinity,
-// which misses by definition.
+// Fails if rays start so far back, or the light is so far away, that a position overflows to infinity, and
+// rays miss by definition.
 TEST(RaySets, workWhereFloatsEnd) {
     const Scene ball = makeBall(1e38f, {});
     for (const RaySetChoice& row : raySets()) {

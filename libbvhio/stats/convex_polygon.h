@@ -1,4 +1,4 @@
-// A triangle cut down to axis-aligned boxes, exactly: clipping by half-spaces (Sutherland and Hodgman 1974,
+// Clips a triangle exactly to axis-aligned boxes: clipping by half-spaces (Sutherland and Hodgman 1974,
 // "Reentrant Polygon Clipping") of one convex polygon, in double.
 #pragma once
 
@@ -9,9 +9,8 @@
 
 namespace bvhio {
 
-/// A planar convex polygon: a triangle, or what is left of one within closed boxes. A part of a triangle that
-/// lies in a face of a box, or in a flat box, is within; where only an edge or a corner touches, the area is
-/// 0.
+/// A planar convex polygon: a triangle, or the part of a triangle inside closed boxes. A part that lies in a
+/// face of a box, or in a flat box, is inside. If only an edge or a corner touches a box, the area is 0.
 class ConvexPolygon {
   public:
     explicit ConvexPolygon(const Triangle& t) : size_(3) {
@@ -32,7 +31,8 @@ class ConvexPolygon {
     bool isEmpty() const { return size_ < 3; }
 
     enum class Place { inside, outside, crossing };
-    /// Where the polygon is as seen from a box: all of it inside, its bounds outside, or neither is known.
+    /// Returns `inside` if all of the polygon is inside the box, `outside` if its bounds are outside, and
+    /// else `crossing`.
     Place placeIn(const Aabb& box) const {
         bool inside = true;
         for (int axis = 0; axis < 3; ++axis) {
@@ -43,7 +43,7 @@ class ConvexPolygon {
         return inside ? Place::inside : Place::crossing;
     }
 
-    /// The part within `box`; may be empty, and then has no area.
+    /// Returns the part inside `box`. If it is empty, its area is 0.
     ConvexPolygon clippedTo(const Aabb& box) const {
         ConvexPolygon result = *this;
         for (int axis = 0; axis < 3 && !result.isEmpty(); ++axis) {
@@ -53,13 +53,13 @@ class ConvexPolygon {
         result.area_ = 0;
         if (result.isEmpty()) return result;
         result.findBounds();
-        // Rounding must not give a part more area than the whole, or less than none.
+        // In spite of rounding, a part must not have more area than the whole, or a negative area.
         result.area_ = std::min(area_, std::max(0.0, scale_ * result.projectedArea(projection_)));
         return result;
     }
 
   private:
-    // A triangle within the six planes of a box has at most 9 corners.
+    // A triangle clipped to the six planes of a box has at most 9 corners.
     static constexpr int kCapacity = 12;
     struct Point {
         double at[3];
@@ -69,8 +69,8 @@ class ConvexPolygon {
     void cut(int axis, double plane, double side) {
         Point kept[kCapacity];
         int count = 0;
-        // Rounding may leave the polygon concave by a bit or two, and a plane through there adds corners that
-        // all but coincide: those beyond the capacity have no area to speak of.
+        // Rounding may leave the polygon slightly concave. A plane through such a place adds corners that
+        // almost coincide, so dropping those beyond the capacity loses almost no area.
         const auto keep = [&](const Point& p) {
             if (count < kCapacity) kept[count++] = p;
         };
@@ -101,7 +101,7 @@ class ConvexPolygon {
         }
     }
 
-    /// The signed area of the projection along `axis`.
+    /// Returns the signed area of the projection along `axis`.
     double projectedArea(int axis) const {
         const int u = axis == 0 ? 1 : axis == 1 ? 2 : 0, v = axis == 0 ? 2 : axis == 1 ? 0 : 1;
         const Point& origin = points_[0];
@@ -116,7 +116,7 @@ class ConvexPolygon {
 
     Point points_[kCapacity];
     int size_;
-    int projection_ = 0;   // the axis along which the triangle's plane is seen largest
+    int projection_ = 0;   // the axis along which the triangle's projection is largest
     double scale_, area_;  // area per projected area
     double min_[3], max_[3];
 };

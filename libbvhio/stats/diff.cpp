@@ -46,10 +46,10 @@ std::string text(const Geometry& g) {
         format("' of %u triangles from %u", g.triangleCount, g.firstTriangle));
 }
 
-/// Counts what differs, and says where the first is.
+/// Counts differences, and describes the first one.
 class ArrayDiff {
   public:
-    /// Element by element, or, when the sizes differ, nothing but those.
+    /// Compares two arrays element by element. If their sizes differ, notes only that.
     template <class Array>
     void compare(const std::string& element, const std::string& elements, const Array& a, const Array& b) {
         if (a.size() != b.size())
@@ -99,7 +99,8 @@ std::string describe(const Bvh& bvh, uint32_t node) {
     return bvh.nodes[node].isLeaf() ? format("node %u (a leaf of %u)", node, count) : format("node %u", node);
 }
 
-/// Nodes of `a` whose hash no node of `b` has, each counted as often as it is missing.
+/// Returns the number of nodes of `a` whose hash no node of `b` has. Equal hashes count as often as they are
+/// missing.
 uint64_t missingFrom(std::vector<uint64_t> a, std::vector<uint64_t> b) {
     std::sort(a.begin(), a.end());
     std::sort(b.begin(), b.end());
@@ -108,7 +109,7 @@ uint64_t missingFrom(std::vector<uint64_t> a, std::vector<uint64_t> b) {
     return missing.size();
 }
 
-/// Two decoded trees and the hashes of their subtrees.
+/// A decoded tree and the hashes of its subtrees.
 struct Side {
     explicit Side(const EncodedBvh& encoded)
         : bvh(std::visit([](const auto& form) { return form.decode(); }, encoded)),
@@ -117,7 +118,7 @@ struct Side {
     std::vector<uint64_t> topology;
 };
 
-/// Descends as long as all the difference lies below one pair of children.
+/// Describes a difference of topologies at the lowest pair of nodes below which all differences are.
 Difference topologyDifference(const Side& a, const Side& b) {
     uint32_t nodeA = 0, nodeB = 0, depth = 0;
     for (;; ++depth) {
@@ -135,11 +136,11 @@ Difference topologyDifference(const Side& a, const Side& b) {
     }
     return {Aspect::topology,
             describe(a.bvh, nodeA) + " and " + describe(b.bvh, nodeB) +
-                format(" at depth %u group triangles otherwise", depth),
+                format(" at depth %u group triangles differently", depth),
             missingFrom(a.topology, b.topology)};
 }
 
-/// Walks two trees of the same topology side by side, siblings matched by what they group.
+/// Walks two trees of the same topology side by side. Siblings are matched by their topology hashes.
 std::optional<Difference> boxDifference(const Side& a, const Side& b) {
     std::vector<std::array<uint32_t, 2>> open{std::array{0u, 0u}};
     ArrayDiff diff;
@@ -160,7 +161,7 @@ std::optional<Difference> boxDifference(const Side& a, const Side& b) {
     return diff.result(Aspect::boxes);
 }
 
-/// Compares slot by slot what is grouped there, whatever its box, and then the leaves' entries.
+/// Compares the topologies of nodes slot by slot, without boxes, and then the leaves' entries.
 std::optional<Difference> orderDifference(const Side& a, const Side& b) {
     ArrayDiff diff;
     for (uint32_t i = 0; i < a.bvh.nodes.size(); ++i)
@@ -205,7 +206,7 @@ Report sideReport(const DiffSide& input, const Side& side) {
     return report;
 }
 
-/// The longest way between vertices of one number, as after a lossy round trip.
+/// Returns the largest distance between vertices of the same index, as after a lossy round trip.
 double largestShift(const SharedArray<Vec3>& a, const SharedArray<Vec3>& b) {
     double largest = 0;
     for (size_t i = 0; i < a.size(); ++i) {

@@ -1,8 +1,11 @@
 // T. Aila, T. Karras, S. Laine, "On Quality Metrics of Bounding Volume Hierarchies", HPG 2013, section 3.
-// They clip every triangle against every node; we carry what is left of a triangle down the tree, since a
-// child's box lies within its parent's. Scenes above a size are sampled, which they do not: pairs of draws in
-// strata of equal surface area, each triangle drawn with probability proportional to its area, so that large
-// triangles, where most overlap is, are nearly all clipped.
+// Departures:
+//
+// - The paper clips every triangle against every node. We carry the clipped part of a triangle down the tree,
+//   since a child's box lies inside its parent's.
+// - Large scenes are sampled: pairs of draws in strata of equal surface area, where each triangle is drawn
+//   with probability proportional to its area, so that nearly all large triangles, which have most of the
+//   overlap, are clipped.
 
 #include "stats/epo.h"
 
@@ -17,8 +20,8 @@
 namespace bvhio {
 namespace {
 
-/// Which triangles have a reference below which node. Leaves are numbered depth first, so a node's leaves are
-/// a range.
+/// An index of the triangles that have a reference below each node. Leaves are numbered depth first, so the
+/// leaves of a node are a range.
 class SubtreeIndex {
   public:
     SubtreeIndex(const Bvh& bvh, size_t triangleCount)
@@ -43,7 +46,7 @@ class SubtreeIndex {
                 open.push_back(node.left());
             }
         }
-        for (size_t i = bvh.nodes.size(); i-- > 0;)  // children lie behind their parents
+        for (size_t i = bvh.nodes.size(); i-- > 0;)  // children come after their parents
             if (i != 1 && !bvh.nodes[i].isLeaf())
                 leafRanges_[i].last = leafRanges_[bvh.nodes[i].right()].last;
     }
@@ -64,14 +67,15 @@ class SubtreeIndex {
     std::vector<uint32_t> leaves_;       // the leaves of each triangle, ascending
 };
 
-/// One triangle's way down the tree.
+/// Computes the sum of one triangle, on its way down the tree.
 class OverlapSum {
   public:
     OverlapSum(const Bvh& bvh, const SubtreeIndex& subtrees, const SahCosts& costs, uint32_t triangle)
         : bvh_(bvh), subtrees_(subtrees), costs_(costs), triangle_(triangle) {}
 
-    /// The sum of C_n * area within n over the nodes below `inner` that the triangle is not below. `part` is
-    /// the triangle within inner's box; `isOwn` says whether the triangle is below inner.
+    /// Returns the sum of C_n * (area inside n) over the nodes n below `inner` that do not have the triangle
+    /// below them. `part` is the triangle's part inside inner's box, and `isOwn` says whether the triangle is
+    /// below inner.
     double below(const Node& inner, const ConvexPolygon& part, bool isOwn) const {
         double sum = 0;
         for (const uint32_t child : {inner.left(), inner.right()}) {
@@ -102,7 +106,8 @@ class OverlapSum {
     uint32_t triangle_;
 };
 
-/// For each of `triangles`, its sum of C_n * area within n over the nodes n that it is not below.
+/// Returns for each of `triangles` the sum of C_n * (area inside n) over the nodes n that do not have it
+/// below them.
 std::vector<double> overlaps(const Scene& scene, const Bvh& bvh, const SahCosts& costs,
                              std::span<const uint32_t> triangles) {
     std::vector<double> sums(triangles.size());
@@ -125,8 +130,8 @@ Epo exactEpo(const Scene& scene, const Bvh& bvh, const SahCosts& costs, double t
     return {std::accumulate(sums.begin(), sums.end(), 0.0) / totalArea, 0, all.size(), true};
 }
 
-/// Two draws from each of as many strata of equal area: their mean is the estimate, their differences its
-/// error.
+/// Estimates the EPO by two draws from each stratum of equal area. The mean of the draws is the estimate, and
+/// their differences give its error.
 Epo sampledEpo(const Scene& scene, const Bvh& bvh, const SahCosts& costs, const EpoOptions& options,
                std::span<const double> areasUpTo) {
     const size_t strata = std::max<size_t>(1, (size_t(options.samples) + 1) / 2);
@@ -135,8 +140,8 @@ Epo sampledEpo(const Scene& scene, const Bvh& bvh, const SahCosts& costs, const 
     Random random(options.seed);
     for (size_t i = 0; i < draws.size(); ++i) {
         const double place = (double(i / 2) + random.uniform()) / double(strata) * totalArea;
-        // The first triangle that reaches beyond `place`: never one without area. Rounding may put `place` at
-        // the very end.
+        // The first triangle that reaches beyond `place`, which has an area. Rounding may put `place` at the
+        // very end.
         const auto found = std::min(std::upper_bound(areasUpTo.begin(), areasUpTo.end(), place),
                                     std::lower_bound(areasUpTo.begin(), areasUpTo.end(), totalArea));
         draws[i] = uint32_t(found - areasUpTo.begin());

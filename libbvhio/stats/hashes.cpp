@@ -1,4 +1,5 @@
-// Merkle trees (Merkle 1987) with a symmetric combination: the children's hashes enter in ascending order.
+// Merkle trees (Merkle 1987) with a symmetric combination: the hashes of children are combined in ascending
+// order.
 
 #include "stats/hashes.h"
 
@@ -24,7 +25,7 @@ std::vector<uint64_t> hashBottomUp(const Bvh& bvh, const Function& hashNode) {
             std::sort(triangles.begin(), triangles.end());
             content = hash64(std::as_bytes(std::span(triangles)));
         } else {
-            // No leaf hashes the same bytes: they would start with triangles beyond 2^31.
+            // No leaf can hash the same bytes, because they would start with triangles beyond 2^31.
             constexpr uint64_t kInner = ~uint64_t(0);
             const auto [low, high] = std::minmax(hashes[node.left()], hashes[node.right()]);
             const std::array words{kInner, low, high};
@@ -50,7 +51,7 @@ std::vector<uint64_t> boundsHashes(const Bvh& bvh) {
 
 uint64_t geometryHash(const Scene& scene) {
     Hasher hasher;
-    // Each part is led by its size: a part that ends earlier must not borrow from the next.
+    // Each part is preceded by its size, so that bytes of one part cannot be taken for those of the next.
     const auto add = [&](const auto& part) {
         const uint64_t size = part.size();
         hasher.update(std::as_bytes(std::span(&size, 1)));

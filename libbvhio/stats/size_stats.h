@@ -1,4 +1,4 @@
-// How many bytes a scene and its encoded tree take in memory, part by part.
+// The sizes in memory of a scene and its encoded tree, part by part.
 #pragma once
 
 #include "compress/forms.h"
@@ -8,10 +8,10 @@
 namespace bvhio {
 
 struct SizeStats {
-    uint64_t nodes = 0;       // as the form stores them
-    uint64_t primitives = 0;  // the leaves' references
-    uint64_t geometry = 0;    // vertices, triangles, source numbers, meshes and instances
-    uint64_t triangles = 0;   // what the per-primitive figures divide by: those stored
+    uint64_t nodes = 0;       // bytes, as the form stores them
+    uint64_t primitives = 0;  // bytes of the leaves' references
+    uint64_t geometry = 0;    // bytes of vertices, triangles, source numbers, meshes and instances
+    uint64_t triangles = 0;   // stored triangles, the divisor of the figures per primitive
 
     double nodeBytesPerPrimitive() const { return double(nodes) / double(triangles); }
     double bytesPerPrimitive() const { return double(nodes + primitives + geometry) / double(triangles); }
@@ -19,8 +19,8 @@ struct SizeStats {
 
 SizeStats sizeStats(const Scene& scene, const EncodedBvh& encoded);
 
-/// Adds the keys bytes{nodes, primitives, geometry}, bytes_per_primitive (of nodes, what forms are compared
-/// by) and total_bytes_per_primitive.
+/// Adds the keys bytes{nodes, primitives, geometry}, bytes_per_primitive (of nodes, for comparing forms) and
+/// total_bytes_per_primitive.
 void addTo(Report& report, const SizeStats& stats);
 
 }  // namespace bvhio

@@ -18,8 +18,8 @@ std::string hashText(uint64_t hash) {
 
 namespace {
 
-/// What there is to say of an instanced scene: there is no one tree, and so neither layout, slack, overlap
-/// nor hashes.
+/// Returns the statistics of an instanced scene. It has several trees, so there is no layout, slack, overlap
+/// or hash.
 Report instancedReport(const Scene& scene, const EncodedBvh& encoded, const StatsOptions& options) {
     const InstancedBvh bvh = std::get<TwoLevelForm>(encoded).decodeInstances(scene);
     Report report;

@@ -9,8 +9,8 @@
 namespace bvhio {
 namespace {
 
-/// The half area that two siblings' boxes share. Boxes that only touch share none; boxes flat on the same
-/// axis may well.
+/// Returns the half area that the boxes of two siblings share. It is 0 for boxes that only touch, but boxes
+/// that are flat on the same axis may share some.
 double sharedHalfArea(const Aabb& a, const Aabb& b) {
     const Aabb shared{max(a.min, b.min), min(a.max, b.max)};
     if (shared.isEmpty()) return 0;
@@ -38,7 +38,7 @@ Report histogramReport(const std::vector<uint64_t>& histogram) {
     return report;
 }
 
-/// The double that is written like the float: 1.2, not 1.2000000476837158.
+/// Returns the double with the same shortest text as the float: 1.2, not 1.2000000476837158.
 double asWritten(float value) {
     char digits[32];
     const char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
@@ -86,7 +86,7 @@ TreeStats treeStats(const Bvh& bvh, const SahCosts& costs) {
 
 TreeStats treeStats(const Scene& scene, const InstancedBvh& bvh, const SahCosts& costs) {
     TreeStats stats = treeStats(bvh.top, costs);
-    std::vector<double> entered(bvh.meshes.size());  // how many of a mesh's instances a line is to enter
+    std::vector<double> entered(bvh.meshes.size());  // expected instances of each mesh that a line enters
     const double rootArea = halfArea(bvh.top.nodes[0].bounds);
     for (size_t i = 0; i < bvh.top.nodes.size(); ++i) {
         const Node& leaf = bvh.top.nodes[i];
@@ -144,7 +144,7 @@ void addTo(Report& report, const TreeStats& stats) {
 
 namespace {
 
-/// Whether pairs lie level by level: then they are in the order of their parents.
+/// Returns whether pairs are in order level by level: then they are in the order of their parents.
 bool isBreadthFirst(const Bvh& bvh) {
     uint32_t next = 2;
     for (size_t i = 0; i < bvh.nodes.size(); ++i) {
@@ -155,9 +155,9 @@ bool isBreadthFirst(const Bvh& bvh) {
     return true;
 }
 
-/// "dfs", "odfs" or "depth-first"; "" where pairs don't lie depth first.
+/// Returns "dfs", "odfs" or "depth-first", or "" if pairs are not in depth-first order.
 std::string_view depthFirstName(const Bvh& bvh) {
-    // As odfs has it, so that it sees the same ties.
+    // The same weights as in odfs, so that ties are the same.
     const double rootArea = halfArea(bvh.nodes[0].bounds);
     const auto weight = [&](const Node& node) { return rootArea > 0 ? halfArea(node.bounds) / rootArea : 1; };
     bool leftFirst = true, largerFirst = true;

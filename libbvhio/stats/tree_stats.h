@@ -1,4 +1,4 @@
-// What a canonical tree looks like, in numbers.
+// The statistics of a canonical tree.
 #pragma once
 
 #include <string_view>
@@ -13,30 +13,30 @@ namespace bvhio {
 
 struct TreeStats {
     uint64_t references =
-        0;  // entries of Bvh::primitives; more than the scene's triangles when splits duplicated some
+        0;  // entries of Bvh::primitives; more than the scene's triangles if splits duplicated some
     uint64_t nodes = 0, innerNodes = 0, leaves = 0;
     uint32_t maxDepth = 0;  // edges from the root
     double averageLeafDepth = 0;
     SahCosts costs{};
     double sahCost = 0;
-    /// What the SAH expects of a long random line through the root's box: nodes entered, and triangles
-    /// tested.
+    /// The numbers of entered nodes and of tested triangles that the SAH expects for a long random line
+    /// through the root's box.
     double expectedInnerNodes = 0, expectedLeaves = 0, expectedTriangles = 0;
-    /// Of the half areas of inner boxes, the part that both children's boxes share: 0 when siblings at most
-    /// touch.
+    /// The half area that the boxes of both children share, as a fraction of the half areas of inner boxes; 0
+    /// if siblings at most touch.
     double childOverlap = 0;
-    std::vector<uint64_t> leafDepths;  // [d] = leaves at depth d
-    std::vector<uint64_t> leafSizes;   // [n] = leaves of n references
+    std::vector<uint64_t> leafDepths;  // [d]: leaves at depth d
+    std::vector<uint64_t> leafSizes;   // [n]: leaves with n references
 };
 
 TreeStats treeStats(const Bvh& bvh, const SahCosts& costs);
 
-/// Of an instanced scene's trees. Counts are sums over all of them, but leaves those of meshes; depths count
-/// within each tree. To the SAH an instance is a leaf of the top that costs what the mesh's tree does in the
-/// mesh's own space, and child_overlap is that of the top.
+/// Returns the statistics of an instanced scene's trees. Counts are sums over all trees, except that leaves
+/// are only those of meshes. Depths count within each tree. For the SAH an instance is a leaf of the top tree
+/// that costs as much as the mesh's tree in the mesh's own space. child_overlap is that of the top tree.
 TreeStats treeStats(const Scene& scene, const InstancedBvh& bvh, const SahCosts& costs);
 
-/// The cost of a tree as its form stores it, instanced or not.
+/// Returns the SAH cost of a tree as its form stores it, instanced or not.
 double sahCost(const Scene& scene, const EncodedBvh& bvh, const SahCosts& costs);
 
 /// Adds the keys references, nodes, inner_nodes, leaves, max_depth, average_leaf_depth, sah_cost,
@@ -44,10 +44,11 @@ double sahCost(const Scene& scene, const EncodedBvh& bvh, const SahCosts& costs)
 /// leaf_depths{depth: leaves} and leaf_sizes{references: leaves}.
 void addTo(Report& report, const TreeStats& stats);
 
-/// The layout as far as it shows in the tree: "clusters" (it has a slot map); or by the order of sibling
-/// pairs in memory "dfs" (each pair, its left subtree, its right one), "odfs" (of two subtrees the one with
-/// the larger box first), "depth-first" (whole subtrees too, in another order, such as that of visits), "bfs"
-/// (level by level), or "other". Where several are true, as in a small tree, it is the first of those. O(n).
+/// Returns the layout, as far as the tree shows it. "clusters" means that the tree has a slot map. The others
+/// are orders of sibling pairs in memory: "dfs" (each pair, its left subtree, its right subtree), "odfs" (the
+/// subtree with the larger box first), "depth-first" (whole subtrees in another order, such as that of
+/// visits), "bfs" (level by level), or "other". If several apply, as in a small tree, returns the first of
+/// them. O(n).
 std::string_view layoutName(const Bvh& bvh);
 
 }  // namespace bvhio

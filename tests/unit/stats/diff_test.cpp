@@ -47,7 +47,7 @@ TEST(Diff, findsNothingBetweenEqualFiles) {
     EXPECT_EQ(report["a"], report["b"]);
 }
 
-// Passes judge trees by the costs in the file: with other ones they make other trees.
+// Passes judge trees by the costs in the file, so other costs give other trees.
 TEST(Diff, findsOtherCostsOfTheSameTree) {
     const Sample a;
     DiffSide b = a.side();
@@ -98,7 +98,8 @@ TEST(Diff, findsAChangedBoxAlsoInAnotherOrder) {
 
 TEST(Diff, findsWhereTheTopologyDiffersThroughSwappedChildren) {
     const Sample a;
-    // The last pair's leaves trade a triangle: all but they and their ancestors are the same subtrees.
+    // The leaves of the last pair swap a triangle: all subtrees except theirs and their ancestors' stay the
+    // same.
     const auto last = uint32_t(a.bvh.nodes.size() - 1);
     ASSERT_TRUE(a.bvh.nodes[last].isLeaf() && a.bvh.nodes[last - 1].isLeaf());
     const Sample b = a.edited([&](auto& nodes, auto& primitives) {
@@ -124,7 +125,7 @@ TEST(Diff, comparesALeafWithATree) {
     leaf = leaf.with(buildMedian(leaf.scene, {.costs = {}, .maxLeafSize = 1000}));
     const std::vector<Difference> found = differences(a.side(), leaf.side());
     ASSERT_EQ(aspects(found), std::vector{Aspect::topology});
-    EXPECT_EQ(found[0].first, "node 0 and node 0 (a leaf of 200) at depth 0 group triangles otherwise");
+    EXPECT_EQ(found[0].first, "node 0 and node 0 (a leaf of 200) at depth 0 group triangles differently");
 }
 
 TEST(Diff, findsAMovedVertexAndHowFarItMoved) {

@@ -25,8 +25,9 @@ Bvh treeOf(std::vector<Node> nodes, std::vector<uint32_t> primitives) {
     return {std::move(nodes), std::move(primitives)};
 }
 
-/// Another way to the area of a triangle within a box: barycentric coordinates are cut, not points, and the
-/// corners of the result are found by trying every pair of constraints and keeping the feasible crossings.
+/// Computes the area of a triangle inside a box in another way: barycentric coordinates are cut, not points,
+/// and the corners of the result are found by trying every pair of constraints and keeping the feasible
+/// crossings.
 double areaWithin(const Triangle& t, const Aabb& box) {
     struct Line {  // a * u + b * v <= c
         double a, b, c;
@@ -48,7 +49,7 @@ double areaWithin(const Triangle& t, const Aabb& box) {
             for (const Line& l : lines) isFeasible &= l.a * u + l.b * v <= l.c + 1e-9;
             if (isFeasible) corners.push_back({u, v});
         }
-    // The corners' hull, by gift wrapping in angle around their mean.
+    // The hull of the corners, which are sorted by angle around their mean.
     if (corners.size() < 3) return 0;
     double mu = 0, mv = 0;
     for (const auto& [u, v] : corners) mu += u / double(corners.size()), mv += v / double(corners.size());
@@ -64,7 +65,7 @@ double areaWithin(const Triangle& t, const Aabb& box) {
     return area(t) * doubled;  // the unit triangle of (u, v) has area 1/2
 }
 
-/// EPO by its definition: every triangle against every node.
+/// Computes the EPO by its definition: every triangle against every node.
 double bruteForceEpo(const Scene& scene, const Bvh& bvh, const SahCosts& costs) {
     std::vector<std::set<uint32_t>> below(bvh.nodes.size());
     double sum = 0, total = 0;
@@ -128,14 +129,15 @@ TEST(ConvexPolygon, agreesWithACutOfBarycentricCoordinates) {
     }
 }
 
-// Two unit right triangles side by side in one plane; the left leaf's box reaches over half of the right
-// triangle's legs.
+// Two unit right triangles side by side in one plane. The left leaf's box covers half of the right triangle's
+// legs.
 TEST(Epo, matchesAHandWorkedTree) {
     const Scene scene = sceneOf({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{1, 0, 0}, {2, 0, 0}, {1, 1, 0}}});
     const Bvh bvh = treeOf(
         {{{{0, 0, 0}, {2, 1, 0}}, 2, 0}, {{{0, 0, 0}, {1.5f, 1, 0}}, 0, 1}, {{{1, 0, 0}, {2, 1, 0}}, 1, 1}},
         {0, 1});
-    // Of the right triangle's 1/2, 3/8 lie left of x = 1.5; of the left one only a point is in the right box.
+    // Of the right triangle's area of 1/2, 3/8 is left of x = 1.5. Only a point of the left triangle is in
+    // the right box.
     const Epo found = epo(scene, bvh, kCosts);
     EXPECT_DOUBLE_EQ(found.value, 3 * 0.375 / 1.0);
     EXPECT_EQ(found.sampledTriangles, 2u);
@@ -158,7 +160,7 @@ TEST(Epo, weighsInnerNodesByTraversalAndLeavesByTheirReferences) {
 }
 
 TEST(Epo, leavesOutATriangleBelowAnyOfItsReferences) {
-    // One triangle in both leaves, as a spatial split leaves it: nothing overlaps anything foreign.
+    // One triangle in both leaves, as after a spatial split: no box contains parts of other triangles.
     const Scene scene = sceneOf({{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}});
     const Bvh bvh = treeOf(
         {{{{0, 0, 0}, {2, 2, 0}}, 2, 0}, {{{0, 0, 0}, {1, 2, 0}}, 0, 1}, {{{1, 0, 0}, {2, 1, 0}}, 1, 1}},
@@ -224,8 +226,8 @@ TEST(Epo, sampledLiesWithinAFewStandardErrorsOfTheExactValue) {
         EXPECT_LT(std::abs(errors), 4);
         squares += errors * errors / 20;
     }
-    // The claimed error is the true one: the mean square of 20 standard normal draws is rarely outside [0.4,
-    // 2].
+    // The estimated error must be the true error: the mean square of 20 standard normal draws is rarely
+    // outside [0.4, 2].
     EXPECT_GT(squares, 0.4);
     EXPECT_LT(squares, 2);
 }

@@ -21,7 +21,7 @@ const Bvh& tree() {
     static const Bvh kTree = buildMedian(scene(), {.costs = {}, .maxLeafSize = 3});
     return kTree;
 }
-/// The tree after `edit(nodes, primitives)`.
+/// Returns the tree after `edit(nodes, primitives)`.
 template <class Edit>
 Bvh edited(const Edit& edit) {
     AlignedVector<Node> nodes(tree().nodes.begin(), tree().nodes.end());
@@ -52,7 +52,7 @@ TEST(Hashes, changeWhenTrianglesChangePlaces) {
 }
 
 TEST(Hashes, changeWhenSubtreesChangePlaces) {
-    // The root's grandchildren: every leaf stays whole, only who is whose cousin changes.
+    // Swap grandchildren of the root: every leaf stays the same, but the grouping changes.
     const Bvh swapped =
         edited([](auto& nodes, auto&) { std::swap(nodes[nodes[2].left()], nodes[nodes[3].left()]); });
     EXPECT_NE(topologyHash(swapped), topologyHash(tree()));
@@ -99,7 +99,8 @@ TEST(Hashes, seeEveryPartOfAScene) {
     EXPECT_EQ(geometryHash(make(1, 2, "a", {})), geometryHash(make(1, 2, "a", {})));
 }
 
-// Files and metrics tables quote them: they must not change with the compiler, the machine or the version.
+// Files and tables of metrics quote hashes, so they must not depend on the compiler, the machine or the
+// version.
 TEST(Hashes, haveFixedValues) {
     const Scene two = test::sceneOf({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{5, 5, 5}, {6, 5, 5}, {5, 6, 7}}});
     const Bvh bvh = buildMedian(two, {.costs = {}, .maxLeafSize = 1});

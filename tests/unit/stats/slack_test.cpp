@@ -10,7 +10,7 @@
 namespace bvhio {
 namespace {
 
-/// A root over two leaves of a unit square each, the second with a box of twice the area.
+/// Returns a root over two leaves with a unit square each. The second leaf has a box of twice the area.
 struct TwoSquares {
     Scene scene = test::sceneOf({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{4, 0, 0}, {5, 0, 0}, {4, 1, 0}}});
     Bvh bvh;
@@ -37,7 +37,7 @@ TEST(Slack, comparesAreasLevelByLevel) {
     EXPECT_DOUBLE_EQ(stats.exactSahCost, 1 + 10 * 2 / 5.0);
 }
 
-// Without area there is no ratio: neither infinity nor NaN may reach the means.
+// Without an area there is no ratio. Neither infinity nor NaN may get into the means.
 TEST(Slack, countsBoxesThatShouldHaveNoArea) {
     TwoSquares two;
     two.scene.vertices = std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {4, 0, 0}, {5, 0, 0}, {4, 0, 0}};
@@ -60,7 +60,7 @@ TEST(Slack, isNoneForExactTrees) {
     EXPECT_EQ(stats.sahCost, stats.exactSahCost);
 }
 
-// The boxes of split triangles are around their parts: whole triangles would make slack less than 1.
+// Boxes of split triangles are around their parts. With whole triangles slack would be less than 1.
 TEST(Slack, ofSplitTrianglesIsThatOfTheirParts) {
     std::vector<Triangle> triangles = test::randomTriangles(1800, 1, 0.01f);
     for (const Triangle& t : test::randomTriangles(200, 1, 0.5f, 2))

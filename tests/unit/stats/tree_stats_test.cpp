@@ -75,12 +75,13 @@ TEST(TreeStats, fillsTheReport) {
     EXPECT_EQ(report["leaf_depths"].dump(), R"({"1":1,"2":2})");
 }
 
-/// As bvh-relayout puts it there.
+/// Returns the tree in the order of a layout, as bvh-relayout writes it.
 Bvh laidOut(const Bvh& bvh, std::string_view layout, const LayoutOptions& options = {}) {
     return applyLayout(bvh, choose(layouts(), "layout", layout).function(bvh, options));
 }
 
-// A file that says "other" of an order that can be seen, or gives it another's name, misleads its reader.
+// A report that says "other" for an order that can be recognised, or gives it the name of another one,
+// misleads.
 TEST(LayoutName, tellsWhatCanBeSeen) {
     const Scene scene = test::sceneOf(test::randomTriangles(64, 1, 0.2f));
     const Bvh tree = buildMedian(scene, {.costs = {}, .maxLeafSize = 1});
@@ -93,7 +94,7 @@ TEST(LayoutName, tellsWhatCanBeSeen) {
                                        {"clusters", "clusters"}})
         EXPECT_EQ(layoutName(laidOut(tree, layout)), name);
 
-    // Visits to the right.
+    // Weights by visits, which go to the right.
     LayoutOptions options;
     options.weights.assign(tree.nodes.size() / 2, 1);
     for (size_t i = 2; i < tree.nodes.size(); ++i)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the tools, takes a scene through them all and shows the result. The one command to see the
-# project work on a fresh Debian 12. Usage: quickstart.sh [SCENE]; without one it takes a sample scene.
+# Installs missing packages, builds the tools, runs all of them on a scene and shows the result. The one command to see the
+# project work on a fresh Debian 12. Usage: quickstart.sh [SCENE]. The default is a sample scene.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -19,7 +19,7 @@ run() {
 }
 run "bvh-build '$scene' | bvh-restructure | bvh-relayout | bvh-compress -o $out/scene.bvhx"
 run "bvh-stats $out/scene.bvhx"
-run "bvh-stats $out/scene.bvhx --check && echo 'nothing is wrong with it'"
+run "bvh-stats $out/scene.bvhx --check && echo 'the file is valid'"
 run "bvh-trace $out/scene.bvhx --image $out/scene.png --heatmap $out/heatmap.png"
 
-printf '\nThe scene as its camera sees it:   %s\nWhat each pixel'"'"'s ray costs:       %s\n' "$PWD/$out/scene.png" "$PWD/$out/heatmap.png"
+printf '\nThe scene as its camera sees it:   %s\nThe cost of each pixel'"'"'s ray:      %s\n' "$PWD/$out/scene.png" "$PWD/$out/heatmap.png"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what the project needs on Debian 12: the one place that lists its packages. CMake finds each of them
-# (libbvhio, tools, tests and tests/bench). Usage: samples/setup.sh [build] [tests] [bench] [plots]; nothing given means build.
-# Does nothing when all is there; needs root, or sudo, only when something is missing.
+# Installs the packages that the project needs on Debian 12. This is the only list of packages; CMake finds each of them
+# (libbvhio, tools, tests and tests/bench). Usage: samples/setup.sh [build] [tests] [bench] [plots]. The default is build.
+# Does nothing if all packages are installed. Needs root, or sudo, only if a package is missing.
 set -euo pipefail
 
 build=(
@@ -19,12 +19,12 @@ build=(
     libspdlog-dev           # logs
 )
 tests=(
-    git                     # the style check lists files by it
+    git                     # lists files for the style check
     libgtest-dev
     clang clang-format libclang-rt-14-dev   # the second compiler, the format check, the fuzzers
     python3 python3-xxhash python3-zstandard  # the second reader of the format
 )
-bench=(libembree-dev)       # the peer
+bench=(libembree-dev)       # the library with which benchmarks compare
 plots=(python3 python3-matplotlib)  # samples/pipelines/compare_methods.py and compare_layouts.py --plot, plot_forms.py
 
 wanted=()

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Checks the house's include arrows: a folder of libbvhio includes only folders to its left in
+"""Checks the include arrows: a folder of libbvhio includes only folders to its left in
     core <- {tree, container} <- scene <- {importers, build, restructure, relayout, compress, rays} <- {metrics, pictures}
     <- {trace, stats, file} <- tools
-(inside braces never each other), and each third-party header appears only in its listed places. Prints one line for each include
-that breaks a rule. Usage: check_arrows.py [ROOT]"""
+(folders inside braces never include each other), and each third-party header is included only in its listed places. Prints one line
+for each include that breaks a rule. Usage: check_arrows.py [ROOT]"""
 
 import pathlib
 import re

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Two builds of the tools must write the same bytes: containers of every builder, restructurer, layout, form and codec, and hits of every ray
-# set, over the sample scenes. Also with one thread against all. Usage: same_bytes.sh TOOLS_DIRECTORY OTHER_TOOLS_DIRECTORY
+# Checks that two builds of the tools write the same bytes: containers of every builder, restructurer, layout, form and codec, and hits of
+# every ray set, over the sample scenes. Also compares one thread with all threads. Usage: same_bytes.sh TOOLS_DIRECTORY OTHER_TOOLS_DIRECTORY
 set -euo pipefail
 
 first=$(realpath "$1") second=$(realpath "$2")
@@ -8,7 +8,7 @@ scenes=$(cd "$(dirname "$0")/.." && pwd)/samples/scenes
 directory=$(mktemp -d)
 trap 'rm -rf "$directory"' EXIT
 
-# The names that an option takes, read from the tool's own help, so that new rows of tables are tested as they come.
+# Prints the names that an option takes, from the tool's own help, so that new rows of tables are tested automatically.
 choices() { # TOOL OPTION
     "$first/$1" --help | awk -v option="$2" '
         $1 == option { listing = 1; next }
@@ -28,7 +28,7 @@ run() { # TOOLS THREADS OUTPUT
         "$tools/bvh-restructure" "$name.levels.${builders[0]}.bvhx" -j "$threads" -o "$name.levels.restructured.bvhx"
         "$tools/bvh-compress" "$name.levels.restructured.bvhx" --form two-level -j "$threads" -o "$name.levels.compact.bvhx"
         "$tools/bvh-trace" "$name.levels.compact.bvhx" --rays diffuse --count 20000 -j "$threads" --hits "$name.levels.hits" >/dev/null
-        [ "$(basename "$scene")" != orchard.glb ] || continue # is about instances
+        [ "$(basename "$scene")" != orchard.glb ] || continue # tests instances only
         for builder in "${builders[@]}"; do
             "$tools/bvh-build" "$scene" --builder "$builder" -j "$threads" -o "$name.$builder.bvhx"
             for method in "${methods[@]}"; do
@@ -40,7 +40,7 @@ run() { # TOOLS THREADS OUTPUT
         done
         for form in "${forms[@]}"; do
             for codec in "${codecs[@]}"; do
-                [ "$codec" != topology ] || [ "$form" = aabb ] || continue # only its boxes can be fitted again
+                [ "$codec" != topology ] || [ "$form" = aabb ] || continue # only this form's boxes can be refitted
                 "$tools/bvh-compress" "$name.${builders[0]}.bvhx" --form "$form" --codec "$codec" --geometry raw \
                     -j "$threads" -o "$name.$form.$codec.bvhx"
             done
@@ -70,4 +70,4 @@ run "$second" 0 "$directory/second"
 diff -r "$directory/first" "$directory/one-thread" && diff -r "$directory/first" "$directory/second"
 count=$(find "$directory/first" -type f | wc -l)
 [ "$count" -gt 0 ] || { echo "same_bytes.sh: no scene found in $scenes"; exit 1; }
-echo "$count files are the same bytes with one thread and all, and from both builds"
+echo "$count files have the same bytes with one thread and with all, and from both builds"

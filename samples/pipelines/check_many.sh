@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks containers before they are published: silent when all are right. Usage: check_many.sh FILE.bvhx...   (tools on PATH)
+# Checks containers before they are published. Prints nothing if all are valid. Usage: check_many.sh FILE.bvhx...   (tools on PATH)
 set -uo pipefail
 
 bad=0

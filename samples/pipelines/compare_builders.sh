@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Which builder's tree is cheaper to trace? Builds a scene with each, proves that both find the same hits, and puts their cost
-# beside each other. Usage: compare_builders.sh SCENE     (the tools must be on PATH)
+# Compares the costs of tracing two builders' trees: builds a scene with each, checks that both find the same hits, and prints
+# their statistics. Usage: compare_builders.sh SCENE     (the tools must be on PATH)
 set -euo pipefail
 
 scene=$1

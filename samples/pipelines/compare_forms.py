@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Puts every form beside each other, and two of them beside what their papers reported.
+"""Compares all forms with each other, and two of them with the figures of their papers.
 
 Usage: compare_forms.py [--rays N] [--repeat N] [--table FILE.md] [--plot FILE.png] NAME=SCENE...
 
-For each scene two trees are built, one with a single triangle a leaf and one with bvh-build's own leaves, and bvh-compress
---pareto measures every form and its parameters on both: slowdown is the time over that of the aabb form of the same tree,
-on one thread, in turn with it, medians of --repeat runs over primary and diffuse rays. Scenes called Bunny, Dragon, Buddha,
-Sponza or Bones are put beside the rows that the papers have for them. The tools must be on PATH; --plot needs matplotlib
+For each scene two trees are built, one with a single triangle per leaf and one with bvh-build's default leaves. bvh-compress
+--pareto measures every form and its parameters on both. The slowdown is the time divided by that of the aabb form of the same
+tree, on one thread, in runs that alternate with it: medians of --repeat runs over primary and diffuse rays. Scenes called Bunny,
+Dragon, Buddha, Sponza or Bones are compared with their rows in the papers. The tools must be on PATH; --plot needs matplotlib
 (Debian: python3-matplotlib). --table keeps a page up to its line <!-- compare_forms.py writes what follows -->.
 """
 import argparse
@@ -26,8 +26,8 @@ TREES = [  # key, heading, options of bvh-build
     ("own", "bvh-build's own leaves, of up to four triangles", []),
 ]
 
-# M. Eisemann, C. Woizischke, M. Magnor, "Ray Tracing with the Single-Slab Hierarchy", VMV 2008, table 1, as A. Trifonov's
-# slides on BVHs (2022) have it: primary rays, 640 x 480, on one core of 2008 with packets of 2 x 2. Of BVH and SSH: nodes traversed
+# M. Eisemann, C. Woizischke, M. Magnor, "Ray Tracing with the Single-Slab Hierarchy", VMV 2008, table 1, as quoted in A. Trifonov's
+# slides on BVHs (2022): primary rays, 640 x 480, on one core of 2008 with packets of 2 x 2. For BVH and SSH: nodes traversed
 # and triangles tested per ray, seconds to trace, MiB.
 SSH_PAPER = {
     "bunny": (69451, (8.77, 18.01), (0.55, 1.31), (0.66, 0.65), (4.24, 1.06)),
@@ -35,9 +35,9 @@ SSH_PAPER = {
     "buddha": (1087716, (6.45, 14.14), (0.63, 1.53), (0.54, 0.59), (66.39, 16.60)),
 }
 
-# P. Bauszat, M. Eisemann, M. Magnor, "The Minimal Bounding Volume Hierarchy", VMV 2010, as the same slides have it. KiB of BVH,
-# MVH and two-level MVH; times over those of the BVH of the latter two, in the first and in the second half of their table (the slides
-# do not say which rays they are of; the second has many more for each node that is decoded).
+# P. Bauszat, M. Eisemann, M. Magnor, "The Minimal Bounding Volume Hierarchy", VMV 2010, as quoted in the same slides. KiB of BVH,
+# MVH and two-level MVH; then times of MVH and two-level MVH relative to the BVH, in the first and in the second half of their table (the
+# slides do not name the rays of each half; the second half has many more rays for each node that is decoded).
 MVH_PAPER = {
     "bones": (4204, (70.75, 0.51, 26.59), (27, 1.6), (3, 1.09)),
     "sponza": (67462, (797.94, 8.23, 41.02), (164, 7.5), (25, 1.71)),
@@ -54,7 +54,7 @@ def run(*command):
 
 
 def mean(values):
-    """The geometric mean."""
+    """Returns the geometric mean."""
     return math.exp(sum(map(math.log, values)) / len(values))
 
 
@@ -63,7 +63,7 @@ def label(row):
 
 
 def measure(scene, tree, options, table):
-    """Builds a tree; returns the candidates' rows by name, and writes them where plots are drawn from."""
+    """Builds a tree. Returns the candidates' rows by name, and writes them to the table from which plots are drawn."""
     run("bvh-build", scene, *options["build"], "-o", tree)
     run("bvh-compress", tree, "--form", "aabb", "--codec", "none", "--pareto", table, "--count", options["rays"],
         "--repeat", options["repeat"], "-o", os.devnull)
@@ -85,12 +85,12 @@ def heading(*cells):
 
 
 def summary(scenes, key):
-    """Each form over all scenes: geometric means, and the worst slowdowns."""
+    """Returns a table of each form over all scenes: geometric means, and the worst slowdowns."""
     lines = [heading("form", "bytes per triangle", "NC", "BLB", "slowdown, primary", "slowdown, diffuse")]
     tables = [rows[key] for _, rows in scenes]
     for name in tables[0]:
         if any(name not in table for table in tables):
-            continue  # refused by some scene
+            continue  # not possible for one of the scenes
         cells = [name, f"{mean([table[name]['bytes_per_primitive'] for table in tables]):.3g}"]
         for column in ("NC", "BLB"):
             cells.append(f"{mean([table[name][column] / table['aabb'][column] for table in tables]):.2f}")
@@ -123,7 +123,7 @@ def ssh_beside_paper(name, triangles, rows, traced):
 
 
 def two_level_of(rows):
-    """The two-level candidate of the least product of bytes and time; none where none could hold the tree."""
+    """Returns the two-level candidate with the least product of bytes and time, or None if no candidate can store the tree."""
     return min((row for row in rows.values() if row["form"] == "two-level"),
                key=lambda row: row["bytes_per_primitive"] * row["slowdown"], default=None)
 
@@ -147,8 +147,8 @@ def main():
     parser.add_argument("scenes", nargs="+", metavar="NAME=SCENE")
     parser.add_argument("--rays", type=int, default=200000)
     parser.add_argument("--repeat", type=int, default=7)
-    parser.add_argument("--table", help="where the tables go; standard output if not given")
-    parser.add_argument("--plot", help="draws size against slowdown")
+    parser.add_argument("--table", help="the page to write the tables to; default: standard output")
+    parser.add_argument("--plot", help="draw a plot of size against slowdown")
     options = parser.parse_args()
     for scene in options.scenes:
         if "=" not in scene:

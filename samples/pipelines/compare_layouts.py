@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Puts every layout beside depth first: what a model of caches says, and what the clock says.
+"""Compares every layout with depth-first order, by a model of caches and by time.
 
 Usage: compare_layouts.py [--rays N] [--repeat N] [--rounds N] [--layouts NAMES] [--table FILE.md] [--plot FILE.png] NAME=SCENE...
 
-For each scene a tree with one triangle a leaf is built, put into every layout that bvh-relayout has (by areas, and by visits where a
-layout uses them), and traced with the same diffuse rays, in the order of the picture's pixels and shuffled: nodes in 64-byte records (the
-aabb form), in 16-byte records (the quantized form) and, modelled alone, in records of 8 bytes. Times are on one thread, the fastest of
---rounds times --repeat runs, rounds going through all layouts in turn. The tools must be on PATH; --plot needs matplotlib (Debian:
+For each scene a tree with one triangle per leaf is built, and put into every layout of bvh-relayout (by areas, and by visits if a layout
+uses them). It is traced with the same diffuse rays, in the order of the picture's pixels and shuffled: with nodes in 64-byte records (the
+aabb form), in 16-byte records (the quantized form) and, only in the model, in records of 8 bytes. Times are on one thread, the fastest of
+--rounds times --repeat runs; each round goes through all layouts in turn. The tools must be on PATH; --plot needs matplotlib (Debian:
 python3-matplotlib) and draws the first scene. --table keeps a page up to its line <!-- compare_layouts.py writes what follows -->.
 """
 import argparse
@@ -29,13 +29,14 @@ ORDERS = ["given", "shuffled"]
 BASE = "dfs"
 BUNDLE = 24  # rays of the picture
 
-# Records of 8 bytes on lines of L bytes in a cache of S bytes miss as those of 16 bytes do on lines of 2 L in 2 S: all is twice as large.
+# Records of 8 bytes on lines of L bytes in a cache of S bytes have the same misses as records of 16 bytes on lines of 2 L bytes in a cache
+# of 2 S bytes, where everything is twice as large.
 KINDS = [  # key, heading, bytes of a record, options of bvh-compress, bytes that are stored for each byte modelled
     ("64", "64-byte records: aabb", 64, ["--form", "aabb"], 1),
     ("16", "16-byte records: quantized", 16, ["--form", "quantized"], 1),
     ("8", "8-byte records, if pointers were free", 8, ["--form", "quantized"], 2),
 ]
-NOTES = {  # below the table of a kind, where all that it names was compared
+NOTES = {  # printed below the table of a kind if all layouts that the note names were compared
     "64": (("odfs", "tbfs"), "A treelet of **tbfs** has as many records as a line, and a record of 64 bytes fills one of 64: with treelets of one pair "
                              "**tbfs** is **odfs**, but for the lines of 128."),
 }
@@ -50,7 +51,7 @@ def run(*command, allowed=(0,)):
 
 
 def mean(values):
-    """The geometric mean; of ratios of what may be none at all."""
+    """Returns the geometric mean, or 0 if a value is 0."""
     return math.exp(sum(map(math.log, values)) / len(values)) if min(values) > 0 else 0
 
 
@@ -71,7 +72,7 @@ def has_option(tool, option):
 
 
 def names_of(tool, option):
-    """The names that --help lists under an option."""
+    """Returns the names that --help lists below an option."""
     names, inside = [], False
     for line in run(tool, "--help").stdout.splitlines():
         if re.match(r"^  -", line):
@@ -82,7 +83,7 @@ def names_of(tool, option):
 
 
 class Variant:
-    """A layout, and whether it is driven by visits; and the options of a relayout that it has a use for."""
+    """A layout, whether it is driven by visits, and the options of bvh-relayout that it uses."""
 
     def __init__(self, layout, by_visits, uses):
         self.layout, self.by_visits, self.uses = layout, by_visits, uses
@@ -94,7 +95,7 @@ class Variant:
 
 
 def variants(layouts, work):
-    """By areas, and by visits; which options each layout has a use for is found by trying: useless ones are refused."""
+    """Returns the variants of layouts, by areas and by visits. Finds the options that each layout uses by trying: unused ones are rejected."""
     mesh, tree = os.path.join(work, "small.obj"), os.path.join(work, "small.bvhx")
     with open(mesh, "w") as file:
         file.write(CUBE)
@@ -114,7 +115,7 @@ def variants(layouts, work):
 
 
 def caches(lines, scale):
-    """32 KiB and 1 MiB for each length of lines, and the pages of a TLB with 64 entries."""
+    """Returns caches of 32 KiB and 1 MiB for each length of lines, and the pages of a TLB with 64 entries."""
     kinds = [f"{32 * scale}K:{line * scale}:8,{scale}M:{line * scale}:16" for line in lines]
     return "+".join(kinds + [f"{256 * scale}K:{4 * scale}K:64"])
 
@@ -125,7 +126,7 @@ def trace(container, rays, order, repeat, *more):
 
 
 def figures(report, lines, scale):
-    """What the tables hold, of one trace: by (measure, line) or measure."""
+    """Returns the figures of one trace for the tables, by (measure, line) or measure."""
     nodes, values = report["cache"]["nodes"], {}
     for i, line in enumerate(lines):
         for level in (1, 2):
@@ -140,7 +141,7 @@ def figures(report, lines, scale):
 
 
 class Row:
-    """A variant's figures in one scene and kind of record: by order of rays."""
+    """The figures of a variant for one scene and kind of record, by order of rays."""
 
     def __init__(self):
         self.figures = {order: {} for order in ORDERS}
@@ -160,12 +161,12 @@ def lay_out(tree, variant, record, line, compress, container):
 
 
 def measure(tree, rays, found, kind, options, work):
-    """A row for each variant."""
+    """Returns a row for each variant."""
     key, _, record, compress, scale = kind
     rows = {}
     for i, variant in enumerate(found):
         row = rows[variant.name] = Row()
-        # A layout that knows nothing of lines is the same for all of them.
+        # A layout that does not use the line size is the same for all sizes.
         for lines in ([[line] for line in LINES] if "--line-size" in variant.uses else [LINES]):
             container = os.path.join(work, f"{key}-{i}-{lines[0]}.bvhx")
             lay_out(tree, variant, record, lines[0], compress, container)
@@ -174,7 +175,7 @@ def measure(tree, rays, found, kind, options, work):
                 report = trace(container, rays, order, 1, "--cache", caches(lines, scale))
                 seen = figures(report, lines, scale)
                 row.figures[order] = {**seen, **row.figures[order]}
-    if scale == 1:  # the containers are what is modelled
+    if scale == 1:  # the containers are those that are modelled
         for _, row in itertools.product(range(options.rounds), rows.values()):
             row.time(rays, options.repeat)
     for row in rows.values():
@@ -238,7 +239,7 @@ def has_short_records(layouts):
 
 
 def measure_short(tree, rays, options, work):
-    """Real records of 8 bytes, by the bits of their pointers."""
+    """Returns a table of real 8-byte records, by the bits of their pointers."""
     rows = {}
     for bits in POINTER_BITS:
         container, report = os.path.join(work, "short.bvhx"), os.path.join(work, "report.json")
@@ -276,7 +277,7 @@ def short_table(scenes):
 
 
 def measure_storages(tree, rays, options):
-    """Ways to keep the nodes of the aabb form in memory, by name."""
+    """Returns a table of ways to store the nodes of the aabb form in memory, by name."""
     rows = {}
     for storage in names_of("bvh-trace", "--node-storage"):
         row = rows[storage] = Row()
@@ -306,7 +307,7 @@ def storage_table(scenes):
 
 
 def bundle_of(rays, path):
-    """Writes a few neighbouring rays of a set as one of their own."""
+    """Writes a few neighbouring rays of a set as a set of their own."""
     with open(rays, "rb") as file:
         data = file.read()
     count = struct.unpack_from("<Q", data, 8)[0]
@@ -317,7 +318,7 @@ def bundle_of(rays, path):
 
 
 def fetched_addresses(tree, rays, found, work):
-    """Of each variant in 16-byte records: the ray and the offset of each fetch of a node, and the nodes' bytes."""
+    """Returns for each variant, in 16-byte records, the ray and the offset of each fetch of a node, and the bytes of all nodes."""
     bundle, table, container = (os.path.join(work, name) for name in ("bundle.rays", "fetches.csv", "drawn.bvhx"))
     bundle_of(rays, bundle)
     drawn = []
@@ -359,9 +360,9 @@ def main():
     parser.add_argument("--rays", type=int, default=100000)
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--rounds", type=int, default=2)
-    parser.add_argument("--layouts", help="only these, by commas; dfs is always there")
-    parser.add_argument("--table", help="where the tables go; standard output if not given")
-    parser.add_argument("--plot", help="draws which addresses are fetched")
+    parser.add_argument("--layouts", help="only these layouts, separated by commas; dfs is always included")
+    parser.add_argument("--table", help="the page to write the tables to; default: standard output")
+    parser.add_argument("--plot", help="draw a plot of the fetched addresses")
     options = parser.parse_args()
     for scene in options.scenes:
         if "=" not in scene:

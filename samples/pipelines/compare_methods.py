@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Puts every builder and restructurer beside each other: what they cost in time, and what their trees cost rays.
+"""Compares all builders and restructurers by the time that they take and by the cost of tracing their trees.
 
 Usage: compare_methods.py [--rounds N] [--rays N] [--chains CHAIN,...] [--table FILE.md] [--plot FILE.png] SCENE...
 
-A chain is BUILDER, or BUILDER+METHOD[:ITERATIONS]; without --chains every builder is tried alone and with every method
-that bvh-restructure has. The tools must be on PATH; --plot needs matplotlib (Debian: python3-matplotlib). Trees are built
-for SAH costs of 1 and 1. --table keeps a page up to its line <!-- compare_methods.py writes what follows -->. In each round every chain runs once, so that what disturbs the machine disturbs all; times and
-rates are medians over the rounds, of the passes themselves, without reading and writing files.
+A chain is BUILDER, or BUILDER+METHOD[:ITERATIONS]. Without --chains every builder runs alone and with every method of
+bvh-restructure. In each round every chain runs once, so that disturbances of the machine affect all chains. Times and rates are
+medians over the rounds, of the passes themselves, without reading and writing files. Trees are built for SAH costs of 1 and 1.
+The tools must be on PATH; --plot needs matplotlib (Debian: python3-matplotlib). --table keeps a page up to its line
+<!-- compare_methods.py writes what follows -->.
 """
 import argparse
 import json
@@ -46,7 +47,7 @@ def run_json(*command):
 
 
 def choices(tool, option):
-    """The names that an option takes, as the tool's --help lists them."""
+    """Returns the names that an option takes, as listed by the tool's --help."""
     lines = run(tool, "--help").decode().splitlines()
     start = next(i for i, line in enumerate(lines) if line.startswith(f"  {option} "))
     names = []
@@ -65,7 +66,7 @@ def all_chains():
 
 
 def make(chain, scene, work):
-    """Runs a chain; returns the container and the seconds that its passes took."""
+    """Runs a chain. Returns the container and the seconds that its passes took."""
     builder, *steps = chain.split("+")
     tree, report = os.path.join(work, "tree.bvhx"), os.path.join(work, "report.json")
     seconds = 0
@@ -112,8 +113,8 @@ def table(title, rows):
 
 
 def plot(scenes, path):
-    """Cost against time for each scene, the builders in colours and the methods as marks; the nearer to the lower left corner
-    the better."""
+    """Draws cost against time for each scene, with builders as colours and methods as marks. Nearer to the lower left corner is
+    better."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
@@ -137,7 +138,7 @@ def plot(scenes, path):
             axis.plot(*zip(*((x, y) for x, y, _ in sorted(points))), color=colour, linewidth=0.8, alpha=0.5)
             for x, y, method in points:
                 axis.scatter(x, y, color=colour, marker=MARKS[methods.index(method) % len(MARKS)], s=34, zorder=3)
-        # What costs almost twice the best would leave no room for the others.
+        # Chains that cost almost twice the best would leave no room for the others.
         costs = [row["sah"] for row in rows]
         axis.set_ylim(0.97 * min(costs), 1.03 * min(max(costs), 1.75 * min(costs)))
         axis.set_title(title, fontsize=10)
@@ -164,9 +165,9 @@ def main():
     parser.add_argument("scenes", nargs="+", metavar="SCENE")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--rays", type=int, default=300000)
-    parser.add_argument("--chains", help="comma-separated")
-    parser.add_argument("--table", help="where the tables go; standard output if not given")
-    parser.add_argument("--plot", help="draws cost against time")
+    parser.add_argument("--chains", help="chains, separated by commas; default: all")
+    parser.add_argument("--table", help="the page to write the tables to; default: standard output")
+    parser.add_argument("--plot", help="draw a plot of cost against time")
     options = parser.parse_args()
 
     chains = options.chains.split(",") if options.chains else all_chains()

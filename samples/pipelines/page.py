@@ -1,9 +1,9 @@
-"""Pages whose head is written by hand, and whose tables by a script."""
+"""Writes pages whose head is written by hand and whose tables are written by a script."""
 import os
 
 
 def write_after_marker(path, marker, text):
-    """Replaces what follows the marker in a page that has it, and else the whole file. Without a path it prints."""
+    """Replaces the text after the marker in a page that has it, and else the whole file. Prints the text if there is no path."""
     if not path:
         print(text, end="")
         return

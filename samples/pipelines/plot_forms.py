@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Draws what bvh-compress --pareto wrote: bytes per triangle against slowdown, one panel a file.
+"""Draws the tables of bvh-compress --pareto: bytes per triangle against slowdown, one panel per file.
 
 Usage: plot_forms.py TABLE.csv... -o PLOT.png    (any format that matplotlib writes: .png, .svg, .pdf)
 
-Needs matplotlib (Debian: python3-matplotlib; samples/setup.sh plots). A panel is called by its file's name. The line joins
-the forms that no other beats in both size and time, with the values of their parameters: the nearer to the lower left
-corner the better.
+Needs matplotlib (Debian: python3-matplotlib; samples/setup.sh plots). The title of a panel is the name of its file. The line joins
+the forms that no other form beats in both size and time, labelled with the values of their parameters. Nearer to the lower left
+corner is better.
 """
 import argparse
 import csv
@@ -55,7 +55,7 @@ def draw(axis, title, rows, colours):
 
 
 def plot(tables, path):
-    """Draws (title, rows) pairs, a panel each."""
+    """Draws a panel for each pair (title, rows)."""
     forms = list(dict.fromkeys(row["form"] for _, rows in tables for row in rows))
     colours = {form: COLOURS[i % len(COLOURS)] for i, form in enumerate(forms)}
     columns = min(len(tables), 3)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# How small does a container get? Stores a scene's container plain, with zstd, and with Draco's lossy geometry besides; checks that
-# zstd changes no hit, and that Draco moves none by more than a thousandth. Usage: smaller_file.sh SCENE     (tools on PATH)
+# Compares the sizes of a scene's container: plain, with zstd, and with zstd and Draco's lossy geometry. Checks that zstd changes
+# no hits, and that Draco changes no t by more than a thousandth. Usage: smaller_file.sh SCENE     (tools on PATH)
 set -euo pipefail
 
 scene=$1
@@ -17,4 +17,4 @@ done
 bvh-stats "$work/plain.bvhx" --diff "$work/zstd.bvhx" | grep verdict
 bvh-trace "$work/plain.bvhx" --compare "$work/zstd.bvhx" >"$work/table" && echo "zstd: the same hits"
 bvh-trace "$work/plain.bvhx" --compare "$work/draco.bvhx" --tolerance 0.001 | grep differing ||
-    echo "draco: so many rays differ by more, at the edges of triangles"
+    echo "draco: this many rays differ by more, at the edges of triangles"

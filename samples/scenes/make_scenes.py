@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the sample scenes beside this script. Needs only Python; the same files come out every time."""
+"""Writes the sample scenes into the folder of this script. Needs only Python, and writes the same files every time."""
 import json
 import math
 import os
@@ -41,7 +41,7 @@ def box(width, height, depth):
 
 
 def lathe(profile, segments, flutes=0, depth=0.0, fluted=()):
-    """Turns a profile of (radius, y), bottom to top, about y. Rows in `fluted` get that many grooves."""
+    """Rotates a profile of (radius, y), from bottom to top, about y. Rows in `fluted` get that many grooves."""
     mesh = Mesh()
     rings = []
     for row, (radius, y) in enumerate(profile):
@@ -119,7 +119,7 @@ def torus(radius, thickness, around, across):
 
 
 def courtyard():
-    """The meshes and the tree of nodes of the courtyard: {name, mesh, translation, rotation, scale, children}."""
+    """Returns the meshes and the tree of nodes of the courtyard: {name, mesh, translation, rotation, scale, children}."""
     shaft = [(0.24, 0.30 + 2.1 * i / 6) for i in range(7)]
     shaft = [(r * (1 - 0.18 * (i / 6) ** 2), y) for i, (r, y) in enumerate(shaft)]
     column = [(0, 0), (0.36, 0), (0.36, 0.1), (0.33, 0.14), (0.35, 0.19), (0.33, 0.24), (0.27, 0.27)] + shaft + \
@@ -174,7 +174,7 @@ def courtyard():
 
 
 def tuft(blades):
-    """A tuft of bent blades of grass, each two quads that narrow."""
+    """A tuft of bent blades of grass, each made of two tapering quads."""
     mesh = Mesh()
     for i in range(blades):
         angle = 2.4 * i
@@ -188,7 +188,7 @@ def tuft(blades):
 
 
 def orchard():
-    """A few meshes in thousands of places: trees in a hierarchy of nodes, grass as instances of one node each."""
+    """A few meshes in thousands of places: trees in a hierarchy of nodes, and grass as instances, each in a node of its own."""
     meshes = {
         "ground": box(40, 0.2, 40),
         "trunk": lathe([(0, 0), (0.3, 0), (0.16, 0.4), (0.13, 1.5), (0.2, 1.9), (0, 2.1)], 12),
@@ -208,7 +208,7 @@ def orchard():
                   for i in range(5)]
         crown = [dict(name="crown", mesh="crown", translation=[x, y, z], scale=[s, 0.8 * s, s])
                  for x, y, z, s in ((0, 2.5, 0, 1), (0.6, 2.1, 0.3, 0.7), (-0.5, 2.2, 0.4, 0.65), (0.1, 2.1, -0.6, 0.7))]
-        # Every other tree is the mirror image of its neighbours.
+        # Every other tree is mirrored.
         size = 0.8 + 0.07 * (number * 5 % 7)
         return dict(name="tree", rotation=turn(1.3 * number), scale=[size if number % 2 else -size, size * (1 + 0.1 * (number % 3)), size],
                     children=[dict(name="trunk", mesh="trunk"), *crown, *apples])
@@ -225,7 +225,7 @@ def orchard():
         fence = [dict(name="post", mesh="post", translation=[3.2 * i - 17.6, 0, 17.6]) for i in range(11)]
         fence += [dict(name="rail", mesh="rail", translation=[3.2 * i - 16, y, 17.6]) for i in range(11) for y in (0.45, 0.9)]
         nodes.append(dict(name="fence", rotation=turn(math.pi * side / 2), children=fence))
-    # The steps of two golden ratios spread points evenly over a square.
+    # Steps by two golden ratios spread points evenly over a square.
     places = []
     for i in range(900):
         x, z = 36 * (i * 0.7548776662 % 1) - 18, 36 * (i * 0.5698402910 % 1) - 18
@@ -302,7 +302,7 @@ def write_ply(path, mesh):
 
 
 def write_table_obj(path):
-    """A table with four legs: quads, groups, and vertices counted back from the last."""
+    """A table with four legs, with quads, groups, and vertices counted back from the last."""
     lines = ["# A table: a top and four legs, each a box of quads."]
     parts = [("top", (0, 0.72, 0), (1.6, 0.06, 0.9))]
     parts += [("leg%d" % i, (x, 0, z), (0.07, 0.72, 0.07)) for i, (x, z) in

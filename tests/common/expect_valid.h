@@ -12,7 +12,7 @@
 
 namespace bvhio::test {
 
-/// Walks the tree and checks what tree/bvh.h promises.
+/// Walks the tree and checks the invariants of tree/bvh.h.
 inline void expectValid(const Scene& scene, const Bvh& bvh, uint32_t maxLeafSize) {
     ASSERT_GE(bvh.nodes.size(), 2u);
     ASSERT_EQ(bvh.nodes.size() % 2, 0u);

@@ -1,4 +1,4 @@
-// Imported scenes whose meshes stand in many places, as a table: tests of instances loop over it, and compare
+// A table of imported scenes whose meshes are in many places. Tests of instances loop over it, and compare
 // with the flattened scene.
 #pragma once
 
@@ -18,7 +18,7 @@ inline Mesh meshOf(const std::string& name, const Scene& scene) {
 }
 
 inline Transform randomTransform(Random& random, double size, double stretch, double span) {
-    // A rotation from a random quaternion, each axis scaled apart.
+    // A rotation from a random quaternion, with each axis scaled by itself.
     double q[4], norm = 0;
     for (double& x : q) {
         x = double(random.uniform(-1, 1));
@@ -66,7 +66,7 @@ inline std::vector<InstancedScene> instancedScenes() {
     }
     scenes.push_back({"stretched and mirrored", stretched});
 
-    // Shears, the last too strong to trace through.
+    // Shears; the last one is too strong for tracing rays through it.
     ImportedScene sheared{{grid, sphere}, {}};
     for (const double shear : {0.5, -2.0, 10.0, 1000.0})
         for (const uint32_t mesh : {0u, 1u})
@@ -74,7 +74,8 @@ inline std::vector<InstancedScene> instancedScenes() {
                 {mesh, Transform{1, shear, 0, shear, 0, 1, 0.3, double(mesh), 0, 0, 1, shear / 2}});
     scenes.push_back({"sheared", sheared});
 
-    // Parts that stand together, in the same place twice (ties), flattened, and where nothing is.
+    // Parts close together, parts in the same place twice (ties), flattened parts, and a part without
+    // triangles.
     ImportedScene parts{{sphere, grid, {"points", {{0, 0, 0}}, {}}}, {}};
     for (const Transform& transform :
          {kIdentityTransform, randomTransform(random, 1, 1, 2), kIdentityTransform,
@@ -91,7 +92,7 @@ inline std::vector<InstancedScene> instancedScenes() {
             sizes.instances.push_back({mesh, randomTransform(random, size, 0.5, 2 * size)});
     scenes.push_back({"of all sizes", sizes});
 
-    // Boxes that only touch, as tiles do, on planes that rays are made to lie in.
+    // Boxes that only touch, like tiles, on planes in which test rays lie.
     ImportedScene tiles{{flat}, {}};
     for (int i = 0; i < 9; ++i)
         tiles.instances.push_back({0, Transform{1, 0, 0, 2.0 * (i % 3), 0, 1, 0, 2.0 * (i / 3), 0, 0, 1, 0}});

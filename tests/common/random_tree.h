@@ -1,4 +1,4 @@
-// Binary trees of random shapes, for tests of what divides trees.
+// Binary trees of random shapes, for tests of code that divides trees.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace bvhio::test {
 
-/// Makes item `i` a child of one before it, of any that has room: items have two `children`, kNone where
-/// there is none. Returns its parent.
+/// Makes item `i` a child of a random item before it that has room. Items have two `children`, which are
+/// kNone if missing. Returns the parent.
 template <class Item>
 uint32_t attachAtRandom(std::vector<Item>& items, uint32_t i, Random& random) {
     uint32_t parent, side;

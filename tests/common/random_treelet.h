@@ -1,4 +1,4 @@
-// Treelets for tests of what plans trees over them, and what such plans cost.
+// Random treelets, and the costs of plans over them, for tests of treelet planners.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ inline Subtree join(const Subtree& a, const Subtree& b, const TreeletCosts& cost
     return node;
 }
 
-/// What a plan costs; it must use every leaf and every step's node once.
+/// Returns the cost of a plan, which must use every leaf and the node of every step once.
 inline float costOf(const Treelet& treelet, const TreeletCosts& costs, const TreeletPlan& plan) {
     std::vector<Subtree> nodes;
     for (uint32_t i = 0; i < treelet.size; ++i) nodes.push_back(leafOf(treelet, i));
@@ -57,7 +57,8 @@ inline float costOf(const Treelet& treelet, const TreeletCosts& costs, const Tre
     return nodes.back().cost;
 }
 
-/// Leaves of few references, near each other or not; on a grid many distances and costs are equal.
+/// Returns a treelet whose leaves have few references, near each other or not. On a grid many distances and
+/// costs are equal.
 inline Treelet randomTreelet(uint32_t size, uint64_t seed, bool onGrid) {
     Random random(seed);
     Treelet treelet;

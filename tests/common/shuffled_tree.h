@@ -1,4 +1,5 @@
-// Random legal rearrangements of a tree: what layouts may do to it, for tests of what must survive them.
+// Random legal rearrangements of a tree, like those by layouts, for tests of properties that layouts must
+// keep.
 #pragma once
 
 #include <algorithm>
@@ -8,15 +9,16 @@
 
 namespace bvhio::test {
 
-/// The same tree with its sibling pairs in another order (parents still before children), half of all
-/// siblings swapped, and the triangles of each leaf shuffled. With swapChildren false only the first.
+/// Returns the same tree with its sibling pairs in another order (parents still before children), half of all
+/// siblings swapped, and the triangles of each leaf shuffled. Without swapChildren, only the order of pairs
+/// changes.
 inline Bvh shuffledTree(const Bvh& bvh, uint64_t seed, bool swapChildren = true) {
     Random random(seed);
     AlignedVector<Node> nodes(bvh.nodes.size());
     std::vector<uint32_t> primitives(bvh.primitives.begin(), bvh.primitives.end());
     nodes[0] = bvh.nodes[0];
     nodes[1] = Node{};
-    std::vector<uint32_t> open;  // placed inner nodes whose pairs are yet to be placed
+    std::vector<uint32_t> open;  // placed inner nodes whose children are not placed yet
     if (!nodes[0].isLeaf()) open.push_back(0);
     for (uint32_t next = 2; !open.empty(); next += 2) {
         std::swap(open[random.below(uint32_t(open.size()))], open.back());

@@ -1,4 +1,4 @@
-// Rays that break careless code.
+// Awkward rays, which break careless code.
 #pragma once
 
 #include <cmath>
@@ -11,9 +11,9 @@
 
 namespace bvhio::test {
 
-/// Rays at a scene's vertices, edges and triangles, from near, far, on planes and inside boxes; directions
-/// with zeros, negative zeros and denormals, of all lengths; limits before, at and behind the hits; and rays
-/// that miss by definition.
+/// Returns rays at a scene's vertices, edges and triangles, from near, far, on planes and inside boxes; with
+/// directions that have zeros, negative zeros and denormals, and any length; with limits before, at and after
+/// hits; and rays that miss by definition.
 inline std::vector<Ray> awkwardRays(const Scene& scene, uint64_t seed = 1, uint32_t rounds = 40) {
     constexpr float kInf = std::numeric_limits<float>::infinity(),
                     kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -36,8 +36,8 @@ inline std::vector<Ray> awkwardRays(const Scene& scene, uint64_t seed = 1, uint3
         for (const Vec3& target : targets) {
             for (const Vec3& origin : {anywhere(1), anywhere(3), anywhere(100), triangle().v0, center})
                 for (const float length : {1.0f, 1e-3f, 64.0f}) add(origin, (target - origin) * length);
-            // Along an axis, from both sides of the target, and from the target itself; the other components
-            // zeros of both signs.
+            // Along an axis, from both sides of the target, and from the target itself. The other components
+            // are zeros of both signs.
             for (int axis = 0; axis < 3; ++axis)
                 for (const float sign : {1.0f, -1.0f}) {
                     Vec3 direction{round % 2 ? 0.0f : -0.0f, 0.0f, round % 3 ? -0.0f : 0.0f};
@@ -59,7 +59,7 @@ inline std::vector<Ray> awkwardRays(const Scene& scene, uint64_t seed = 1, uint3
         add(t.v2, inPlane);
         add(anywhere(1), inPlane);
     }
-    // Limits: before, at and behind what the ray would hit are tried by the test, which knows the hit.
+    // Limits before, at and after the hit are tried by the test, which knows the hit.
     const Vec3 origin = anywhere(2), direction = center - origin;
     add(origin, direction * 1e30f);
     add(origin, direction * 1e-30f);

@@ -1,4 +1,4 @@
-// Scenes that break careless code, as a table: property tests loop over it.
+// A table of awkward scenes, which break careless code. Property tests loop over it.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace bvhio::test {
 
-/// A scene of one geometry whose triangles share no vertices. Turns -0 into +0, as importers do.
+/// Returns a scene of one geometry whose triangles share no vertices. Turns -0 into +0, like importers.
 inline Scene sceneOf(const std::vector<Triangle>& triangles) {
     std::vector<Vec3> vertices;
     std::vector<TriangleIndices> indices;
@@ -23,8 +23,8 @@ inline Scene sceneOf(const std::vector<Triangle>& triangles) {
     return {std::move(vertices), std::move(indices), {{"test", 0, count}}, {}};
 }
 
-/// A grid of 2 * side * side triangles over [0, side]^2, with shared vertices; height(x, y) gives the third
-/// coordinate.
+/// Returns a grid of 2 * side * side triangles over [0, side]^2 with shared vertices. height(x, y) is the
+/// third coordinate.
 template <class Height>
 Scene gridScene(uint32_t side, const Height& height) {
     std::vector<Vec3> vertices;
@@ -42,8 +42,9 @@ Scene gridScene(uint32_t side, const Height& height) {
     return {std::move(vertices), std::move(indices), {{"grid", 0, count}}, {}};
 }
 
-/// A closed sphere of radius 1 around the origin in which neighbours share vertices: 2 * segments * (rings -
-/// 1) triangles, the poles' fans included. It is watertight: a ray from inside hits exactly once.
+/// Returns a closed sphere of radius 1 around the origin whose triangles share vertices: 2 * segments *
+/// (rings - 1) triangles, with the fans at the poles. It is watertight: a ray from inside hits it exactly
+/// once.
 inline Scene sphereScene(uint32_t segments, uint32_t rings) {
     constexpr double kPi = 3.14159265358979323846;
     std::vector<Vec3> vertices{{0, 0, 1}};
@@ -70,7 +71,7 @@ inline Scene sphereScene(uint32_t segments, uint32_t rings) {
     return {std::move(vertices), std::move(indices), {{"sphere", 0, count}}, {}};
 }
 
-/// `count` random triangles with vertices within `size` of a centre in [-span, span]^3.
+/// Returns `count` random triangles with vertices within `size` of a centre in [-span, span]^3.
 inline std::vector<Triangle> randomTriangles(uint32_t count, float span, float size, uint64_t seed = 1) {
     Random random(seed);
     const auto point = [&](float s) {
@@ -87,7 +88,7 @@ inline std::vector<Triangle> randomTriangles(uint32_t count, float span, float s
     return triangles;
 }
 
-/// `count` triangles around one centroid, all of the same size: no plane separates them.
+/// Returns `count` triangles of the same size around one centroid, so that no plane separates them.
 inline Scene coincidentScene(uint32_t count) {
     std::vector<Vec3> vertices{{-1, -1, -1}, {1, -1, 0}, {0, 1, 1}};
     std::vector<TriangleIndices> indices(count, TriangleIndices{0, 1, 2});
@@ -99,7 +100,7 @@ struct TestScene {
     Scene (*make)();
 };
 
-/// Every row is a valid Scene, small enough for brute force over many rays.
+/// The table. Every row is a valid Scene, small enough for brute force over many rays.
 inline std::span<const TestScene> testScenes() {
     static constexpr TestScene kTable[] = {
         {"oneTriangle",
@@ -134,7 +135,7 @@ inline std::span<const TestScene> testScenes() {
              }
              return sceneOf(triangles);
          }},
-        {"linePoints",  // no areas at all: every SAH ratio is 0 / 0 for the careless
+        {"linePoints",  // no areas: for careless code every SAH ratio is 0 / 0
          [] {
              std::vector<Triangle> triangles;
              for (int i = 0; i < 200; ++i) {
@@ -183,7 +184,7 @@ inline std::span<const TestScene> testScenes() {
                      triangles.push_back(t);
              return sceneOf(triangles);
          }},
-        {"halvingDistances",  // each binned split takes off a few triangles: the deepest trees come from such
+        {"halvingDistances",  // each binned split takes off a few triangles, so trees are very deep
          [] {
              std::vector<Triangle> triangles;
              float x = 1e38f;

@@ -1,5 +1,5 @@
-// Any bytes at all are either refused with an Error, or they are a file: then writing it and reading that
-// gives the same content.
+// Fuzzes the reader of containers. Any bytes are either rejected with an Error, or a valid file: then writing
+// its content and reading it again gives the same content.
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -29,8 +29,8 @@ std::span<const std::byte> asBytes(const std::string& text) {
     return std::as_bytes(std::span(text));
 }
 
-/// Puts the right checksums and totals over a file's bytes, as far as its sizes make sense: with wrong ones,
-/// nearly every mutation would end at the first checksum, and nothing behind it would be tried.
+/// Corrects the checksums and totals in a file's bytes, as far as its sizes make sense. Otherwise nearly
+/// every mutation would end at the first checksum, and nothing after it would be tested.
 std::string repaired(std::span<const std::byte> bytes) {
     std::string file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const auto put = [&](size_t at, uint64_t value) { std::memcpy(file.data() + at, &value, 8); };

@@ -1,5 +1,5 @@
-// Feeds any bytes to the scene importers. The first byte picks the file name, so that kinds told apart by
-// name are reached too.
+// Fuzzes the scene importers. The first byte chooses the file name, so that kinds of files that are
+// recognised by their names are tested, too.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (size == 0) return 0;
     try {
         const std::span bytes(reinterpret_cast<const std::byte*>(data + 1), size - 1);
-        // No such directory: external buffers are never found.
+        // The directory does not exist, so external buffers are never found.
         bvhio::ImportedScene scene =
             bvhio::importBytes(bytes, kNames[data[0] % std::size(kNames)], "/nonexistent");
         uint64_t triangles = 0;

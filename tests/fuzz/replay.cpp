@@ -1,5 +1,5 @@
-// Runs a fuzz harness without libFuzzer: over every file below the folders that are given, and over mutations
-// of them that are the same in every run. Usage: replay_NAME FOLDER...
+// Runs a fuzz harness without libFuzzer: with every file below the given folders, and with mutations of these
+// files that are the same in every run. Usage: replay_NAME FOLDER...
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 namespace {
 
 constexpr uint32_t kRounds = 20;                   // mutations of each file
-constexpr auto kBudget = std::chrono::seconds(2);  // for mutations; only a slow machine stops by it
+constexpr auto kBudget = std::chrono::seconds(2);  // for mutations; only slow machines reach it
 
 using Input = std::vector<uint8_t>;
 

@@ -1,5 +1,5 @@
-// What the golden files hold: one for each chunk, codec and geometry encoding. Coordinates are small dyadic
-// numbers, so that no compiler or processor computes them differently.
+// The contents of the golden files: a file for each chunk, codec and geometry encoding. Coordinates are small
+// dyadic numbers, so that every compiler and processor computes the same values.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ struct GoldenFile {
     WriteOptions options;
 };
 
-/// The two triangles whose bytes the pages of format-spec work through.
+/// Returns the two triangles whose bytes the pages of format-spec explain.
 inline BvhxFile twoTriangles() {
     Scene scene;
     scene.vertices = std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 2}};
@@ -31,8 +31,8 @@ inline BvhxFile twoTriangles() {
     return {scene, AabbForm({std::move(nodes), std::vector<uint32_t>{0, 1}}), {1.5f, 1.0f}, {}, {}};
 }
 
-/// A bumpy grid in three geometries, with numbers of source primitives, provenance and chunks of unknown
-/// types.
+/// Returns a bumpy grid in three geometries, with source numbers of primitives, provenance, and chunks of
+/// unknown types.
 inline BvhxFile grid() {
     constexpr uint32_t side = 6;
     std::vector<Vec3> vertices;
@@ -70,7 +70,7 @@ inline BvhxFile grid() {
          {chunkType("xTRE"), kSurvivesReorder, payload("of the tree")}}};
 }
 
-/// A file with visits that five rays could have made: fewer with each level down.
+/// Returns a file with visits that five rays could have made: fewer on each lower level.
 inline BvhxFile visited(BvhxFile file) {
     const Bvh& bvh = std::get<AabbForm>(file.bvh).bvh();
     std::vector<uint32_t> visits(bvh.nodes.size() / 2, 5);
@@ -82,7 +82,7 @@ inline BvhxFile visited(BvhxFile file) {
     return file;
 }
 
-/// One triangle in the root.
+/// Returns a file with one triangle, in the root.
 inline BvhxFile oneLeaf() {
     Scene scene;
     scene.vertices = std::vector<Vec3>{{1, 1, 1}, {1, 1, 1}, {3, 1, 1}};
@@ -92,7 +92,7 @@ inline BvhxFile oneLeaf() {
     return {scene, AabbForm({std::move(nodes), std::vector<uint32_t>{0}}), {}, {}, {}};
 }
 
-/// The second of two triangles was split: two leaves have a part of it each.
+/// Returns a file with two triangles, the second of which was split: two leaves have a part of it each.
 inline BvhxFile splitTriangle() {
     Scene scene;
     scene.vertices = std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {4, 0, 0}};
@@ -105,14 +105,14 @@ inline BvhxFile splitTriangle() {
     return {scene, AabbForm({std::move(nodes), std::vector<uint32_t>{1, 0, 1}}), {}, {}, {}};
 }
 
-/// The grid with its pairs and its leaves' ranges in no order that has a name.
+/// Returns the grid with its pairs and its leaves' ranges in an order without a name.
 inline BvhxFile shuffledGrid() {
     BvhxFile file = grid();
     file.bvh = AabbForm(test::shuffledTree(decode(file.bvh), 1));
     return file;
 }
 
-/// A file with its tree in clusters.
+/// Returns a file with its tree in clusters.
 inline BvhxFile inClusters(BvhxFile file, uint32_t pointerBits, uint32_t lineSize) {
     const Bvh bvh = decode(file.bvh);
     file.bvh =
@@ -120,13 +120,13 @@ inline BvhxFile inClusters(BvhxFile file, uint32_t pointerBits, uint32_t lineSiz
     return file;
 }
 
-/// A file with its tree in another form.
+/// Returns a file with its tree in another form.
 inline BvhxFile inForm(BvhxFile file, std::string_view form, const EncodeOptions& options = {}) {
     file.bvh = choose(forms(), "form", form).function(file.scene, decode(file.bvh), options);
     return file;
 }
 
-/// A file with its tree in two levels.
+/// Returns a file with its tree in two levels.
 inline BvhxFile inTwoLevels(BvhxFile file, TlasForm tlas, BlasForm blas, uint32_t blasSize,
                             uint32_t bits = 8) {
     EncodeOptions options;
@@ -138,7 +138,7 @@ inline BvhxFile inTwoLevels(BvhxFile file, TlasForm tlas, BlasForm blas, uint32_
     return inForm(std::move(file), "two-level", options);
 }
 
-/// The two triangles as a mesh in two places, the second stretched and mirrored.
+/// Returns the two triangles as a mesh in two places. The second instance is stretched and mirrored.
 inline BvhxFile twoPlaces() {
     BvhxFile file = twoTriangles();
     Scene& scene = file.scene;
@@ -154,7 +154,8 @@ inline BvhxFile twoPlaces() {
     return file;
 }
 
-/// The grid in two meshes and five places, below a quantized top level; numbers of geometries have gaps.
+/// Returns the grid as two meshes in five places, below a quantized top level. Numbers of geometries have
+/// gaps.
 inline BvhxFile gridPlaces(BlasForm blas) {
     BvhxFile file = grid();
     Scene& scene = file.scene;

@@ -29,7 +29,7 @@ TEST(Golden, filesStillReadToTheirContent) {
             expectSameContent(golden.content, read);
             continue;
         }
-        // 8 bits over a longest side of 3 round each coordinate by at most half a step.
+        // With 8 bits over a longest side of 3, each coordinate is rounded by at most half a step.
         ASSERT_EQ(read.scene.vertices.size(), golden.content.scene.vertices.size());
         for (size_t i = 0; i < read.scene.vertices.size(); ++i)
             for (int axis = 0; axis < 3; ++axis)
@@ -41,7 +41,7 @@ TEST(Golden, filesStillReadToTheirContent) {
     }
 }
 
-// A format version that is not released yet: the writer still has to write it so, bit by bit.
+// While a format version is not released yet, the writer must write exactly these bytes.
 TEST(Golden, filesAreWhatTheWriterWrites) {
     for (const GoldenFile& golden : goldenFiles()) {
         if (golden.options.codec == "zstd" && ZSTD_versionNumber() != 10504)
@@ -57,7 +57,7 @@ TEST(Golden, contentHashIsTheSameForEveryCodec) {
 }
 
 // Lines "    0100: 00 01 02  meaning" of the pages quote the file of the two triangles, in the form that the
-// page is about; or the one that a line above them names as `two_triangles_...`.
+// page describes, or the file that a line above them names as `two_triangles_...`.
 TEST(Golden, workedBytesOfThePagesAreTrue) {
     const std::regex line("    ([0-9a-f]{4}): ((?:[0-9a-f]{2} )+) .*"), other(".*`two_triangles(_\\w+)`.*");
     const auto ofTwoTriangles = [](const std::string& form) {

@@ -1,5 +1,4 @@
-// Writes the golden files into the folder that is given. Only for files of a format version that is not
-// released yet.
+// Writes the golden files into the given folder. Only for a format version that is not released yet.
 #include <filesystem>
 #include <fstream>
 #include <iostream>

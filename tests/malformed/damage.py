@@ -1,4 +1,4 @@
-"""Golden files taken apart, damaged in one way, and put together with right checksums; and the list of cases."""
+"""Takes golden files apart, so that cases can damage them in one way, and puts them together with correct checksums. Also the list of cases."""
 import os
 import struct
 
@@ -21,7 +21,7 @@ def pad(data):
 
 
 class Chunk:
-    """A chunk as its writer sees it; fields that are None are computed."""
+    """A chunk as its writer sees it. Fields that are None are computed."""
 
     def __init__(self, kind, flags, raw, codec=0, stored=None):
         self.kind, self.flags, self.raw, self.codec = kind, flags, raw, codec

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Writes the malformed files of this folder, one or more for each clause by which a reader must reject a file, and manifest.csv.
 
-Each starts from a golden file, is taken apart into chunks, damaged in one way, and put together with right checksums, so that
-nothing but the one clause is broken. The cases are in the folder of that name, a file for each page of format-spec.
+Each malformed file starts from a golden file, which is taken apart into chunks, damaged in one way, and put together with correct
+checksums, so that only one clause is broken. The cases are in the folder `cases`, in a file for each page of format-spec.
 Usage: make_malformed.py [FOLDER]; FOLDER defaults to this script's.
 """
 import csv

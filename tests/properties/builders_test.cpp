@@ -1,4 +1,4 @@
-// Every builder, over awkward scenes and options: the invariants of tree/bvh.h.
+// Tests the invariants of tree/bvh.h for every builder, over awkward scenes and options.
 #include "build/builders.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace bvhio {
 namespace {
 
-/// One builder over one scene; the name makes "properties/binned_huge".
+/// A builder and a scene; the name of the test is then "properties/binned_huge".
 struct Case {
     const Builder* builder;
     const test::TestScene* scene;
@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(, EveryBuilder, testing::ValuesIn(allCases()), nameOf);
 
 class LargeScenes : public testing::TestWithParam<const Builder*> {};
 
-/// Above the sizes from which builders share the work of one node among threads.
+/// Returns a scene above the sizes from which builders share the work of one node among threads.
 Scene largeSoup() {
     return test::sceneOf(test::randomTriangles(150000, 1, 0.01f));
 }
@@ -77,7 +77,7 @@ TEST_P(LargeScenes, giveTheSameBytesWithAnyNumberOfThreads) {
 }
 
 TEST_P(LargeScenes, giveTheSameBytesOnEveryProcessor) {
-    // Not so large: with sanitizers the most basic target is very slow.
+    // Not larger, because with sanitizers the most basic target is very slow.
     const Scene scene = test::sceneOf(test::randomTriangles(20000, 1, 0.02f));
     const Bvh expected = GetParam()->function(scene, {});
     const int64_t supported = hwy::SupportedTargets();
@@ -91,7 +91,7 @@ TEST_P(LargeScenes, giveTheSameBytesOnEveryProcessor) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-// A split by planes finds none here; one that takes off a primitive at a time would need minutes.
+// No plane splits these triangles. A builder that took off one primitive at a time would need minutes.
 TEST_P(LargeScenes, withAMillionCoincidentCentroidsAreHalvedQuickly) {
     const Scene scene = test::coincidentScene(1000000);
     const auto start = std::chrono::steady_clock::now();
@@ -102,7 +102,7 @@ TEST_P(LargeScenes, withAMillionCoincidentCentroidsAreHalvedQuickly) {
     EXPECT_LE(depthOf(bvh), 22u);
 }
 
-// Object medians ignore areas: whoever minds them must do better on surfaces.
+// Object medians ignore areas, so builders that use them must do better on surfaces.
 TEST_P(LargeScenes, costNoMoreThanMedianSplits) {
     const auto median = choose(builders(), "builder", "median").function;
     for (const Scene& scene : {test::sphereScene(200, 100), largeSoup(),

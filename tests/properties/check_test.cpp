@@ -1,4 +1,5 @@
-// Whatever the form, a file whose boxes do not hold a triangle is found, to the last bit.
+// Tests that for every form the check finds a file in which a triangle extends outside its box by a single
+// bit.
 #include "file/check.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@
 namespace bvhio {
 namespace {
 
-/// The scene with a corner of a triangle that shares no vertices moved to `x`.
+/// Returns the scene with a corner moved to `x`. Its triangle shares no vertices.
 Scene withCornerAt(const Scene& scene, uint32_t triangle, float x) {
     std::vector<Vec3> vertices(scene.vertices.begin(), scene.vertices.end());
     vertices[scene.triangles[triangle].v0].x = x + 0.0f;

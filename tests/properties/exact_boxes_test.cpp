@@ -1,4 +1,4 @@
-// What every form's larger boxes stand for is found again.
+// Tests that exact boxes can be found again from the larger boxes of every form.
 #include "compress/exact_boxes.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ TEST_P(ExactBoxesInScene, areThoseThatABuilderMade) {
     const Scene scene = GetParam().make();
     for (const Builder& builder : builders()) {
         const Bvh bvh = builder.function(scene, {});
-        if (bvh.primitives.size() > scene.triangles.size()) continue;  // the next test's
+        if (bvh.primitives.size() > scene.triangles.size()) continue;  // tested below
         for (const FormChoice& form : forms()) {
             SCOPED_TRACE(testing::Message() << builder.name << ' ' << form.name);
             const Bvh decoded = decode(form.function(scene, bvh, {}));
@@ -34,7 +34,7 @@ TEST_P(ExactBoxesInScene, areThoseThatABuilderMade) {
     }
 }
 
-// Of split triangles, a part that is too small would lose hits, and one that is too large gain nothing.
+// A part of a split triangle that is too small would lose hits, and one that is too large would gain nothing.
 TEST_P(ExactBoxesInScene, ofSplitTrianglesKeepTheHits) {
     const Scene scene = GetParam().make();
     const Bvh bvh = choose(builders(), "builder", "spatial")

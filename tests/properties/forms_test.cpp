@@ -1,5 +1,5 @@
-// Every form, over every builder's trees of awkward scenes: what it decodes to is a valid tree with the same
-// leaves, whose boxes hold the ones it was made from.
+// Tests every form with every builder's trees of awkward scenes: it must decode to a valid tree with the same
+// leaves, whose boxes contain the boxes that it was made from.
 #include "compress/forms.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 class FormsOfScene : public testing::TestWithParam<test::TestScene> {};
 
-/// The box of the leaf that each entry of the leaf order is in.
+/// Returns for each entry of the leaf order the box of its leaf.
 std::vector<Aabb> leafBoxes(const Bvh& bvh) {
     std::vector<Aabb> boxes(bvh.primitives.size(), Aabb::empty());
     for (const Node& node : bvh.nodes)
@@ -26,7 +26,8 @@ std::vector<Aabb> leafBoxes(const Bvh& bvh) {
     return boxes;
 }
 
-/// Node by node, from the roots down; a leaf may be divided, and entries may stand in another order.
+/// Compares two trees node by node, from the roots down. A leaf may be divided, and entries may be in another
+/// order.
 void expectSameLeavesInLargerBoxes(const Bvh& bvh, const Bvh& decoded) {
     std::vector<std::pair<uint32_t, uint32_t>> waiting{{0, 0}};
     while (!waiting.empty()) {
@@ -72,8 +73,8 @@ TEST_P(FormsOfScene, decodeToValidTreesThatHoldTheOriginal) {
                      validate(decoded, uint32_t(scene.triangles.size()), boundsOfTriangles(scene)).findings)
                     ADD_FAILURE() << finding.message;
                 ASSERT_TRUE(decoded.nodes[0].bounds.contains(bvh.nodes[0].bounds));
-                // Once decoded, boxes do not grow further. (Parts of triangles are taken anew from leaves
-                // that grew.)
+                // Encoding a decoded tree again does not enlarge boxes. (Parts of triangles are taken again
+                // from leaves that grew.)
                 const bool isSplit = bvh.primitives.size() != scene.triangles.size();
                 if (!isSplit || form.name != TwoLevelForm::kName) {
                     const EncodedBvh again = form.function(scene, decoded, {});
@@ -83,7 +84,7 @@ TEST_P(FormsOfScene, decodeToValidTreesThatHoldTheOriginal) {
                     expectSameLeavesInLargerBoxes(bvh, decoded);
                     continue;
                 }
-                // It has a tree of its own, or BLASes have.
+                // The form, or its BLASes, have a tree of their own.
                 if (form.name == MvhForm::kName || form.name == TwoLevelForm::kName) continue;
                 ASSERT_TRUE(std::equal(bvh.primitives.begin(), bvh.primitives.end(),
                                        decoded.primitives.begin(), decoded.primitives.end()));

@@ -1,5 +1,5 @@
-// Closest and any hits are those of brute force, bit by bit: for every builder, restructurer, form, source of
-// triangles and processor.
+// Tests that closest and any hits are those of brute force, bit by bit, for every builder, restructurer,
+// form, source of triangles and processor.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -25,7 +25,7 @@ void forEachForm(const Scene& scene, const Bvh& bvh, const Function& function) {
              EncodedBvh(QuantizedShortForm::encode(scene, bvh, manyClusters)));
 }
 
-/// Rays, and the same again with limits around each one's hit.
+/// Returns rays, and the same rays again with limits around their hits.
 std::vector<Ray> raysFor(const Scene& scene) {
     std::vector<Ray> rays = test::awkwardRays(scene, 1, 6);
     const size_t count = rays.size();
@@ -53,7 +53,7 @@ bool sameBits(const Hit& a, const Hit& b) {
     return std::memcmp(&a, &b, sizeof(Hit)) == 0;
 }
 
-/// What a test compares with.
+/// The hits of brute force.
 struct Expected {
     std::vector<Hit> hits;
     std::vector<uint8_t> occluded;
@@ -91,7 +91,7 @@ TEST_P(HitsInScene, equalBruteForceForEveryBuilderAndForm) {
     const Expected expected(scene, rays);
     for (const Builder& builder : builders())
         for (const uint32_t maxLeafSize : {4u, 1u, 13u}) {
-            // Sizes of leaves and sources of triangles mean the same for every builder.
+            // Leaf sizes and sources of triangles do not depend on the builder.
             const bool isFirst = &builder == &builders()[0];
             if (!isFirst && maxLeafSize != 4) continue;
             forEachForm(
@@ -127,7 +127,7 @@ TEST_P(HitsInScene, areTheSameOnEveryProcessor) {
     const Tracer tracer(scene, bvh);
     const int64_t supported = hwy::SupportedTargets();
     for (int64_t targets = supported; targets != 0;
-         targets &= targets - 1) {  // from the best down to the most basic alone
+         targets &= targets - 1) {  // from the best to the most basic target
         SCOPED_TRACE(testing::Message() << hwy::TargetName(targets & -targets));
         hwy::SetSupportedTargetsForTest(targets & -targets);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());

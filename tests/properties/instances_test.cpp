@@ -1,5 +1,5 @@
-// Instanced scenes in every pair of forms for their levels: hits equal brute force, and files give back what
-// was written.
+// Tests instanced scenes in every pair of forms for their levels: hits equal brute force, and files return
+// what was written.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -34,7 +34,7 @@ void forEachPair(const Function& function) {
         }
 }
 
-/// Awkward rays, and rays from near each instance, with and without limits.
+/// Returns awkward rays, and rays from near each instance, with and without limits.
 std::vector<Ray> raysFor(const ImportedScene& imported) {
     std::vector<Ray> rays = test::awkwardRays(flatten(imported, {}), 3, 3);
     const Scene scene = shareMeshes(imported, {});
@@ -90,7 +90,7 @@ TEST(InstancedScenes, surviveFilesInEveryForm) {
     for (const test::InstancedScene& row : test::instancedScenes()) {
         SCOPED_TRACE(row.name);
         const Scene scene = shareMeshes(row.imported, {});
-        // Leaves are larger than ssh has them: their halves must stay with their mesh.
+        // Leaves are larger than ssh can store: their halves must stay with their mesh.
         const InstancedBvh bvh =
             buildInstanced(scene, choose(builders(), "builder", "median"), {.costs = {}, .maxLeafSize = 200});
         forEachPair([&](const EncodeOptions& options) {
@@ -102,7 +102,7 @@ TEST(InstancedScenes, surviveFilesInEveryForm) {
             EXPECT_EQ(optionsOf(read.bvh), options);
             EXPECT_EQ(written(read), written(file));
             EXPECT_GT(sahCost(scene, file.bvh, {}), 0);
-            // Once more through the canonical trees.
+            // Encode again from the canonical trees.
             const auto& levels = std::get<TwoLevelForm>(read.bvh);
             const BvhxFile again{scene,
                                  TwoLevelForm::encodeInstances(scene, levels.decodeInstances(scene), options),
@@ -114,7 +114,7 @@ TEST(InstancedScenes, surviveFilesInEveryForm) {
     }
 }
 
-// More instances than one leaf or one node has room for, all in one place: the depth stays in bounds.
+// More instances in one place than a leaf or a node has room for: the depth must stay within its limit.
 TEST(InstancedScenes, thousandsInOnePlace) {
     ImportedScene imported{{test::meshOf("grid", test::gridScene(1, [](float, float) { return 0.5f; }))},
                            std::vector<Instance>(3000)};
@@ -131,7 +131,7 @@ TEST(InstancedScenes, thousandsInOnePlace) {
     }
 }
 
-// One mesh in one place costs what its tree does, and so do two of them that lie apart, each at half the
+// One mesh in one place costs as much as its tree. So do two instances that are apart, each with half the
 // probability.
 TEST(InstancedScenes, costIsThatOfTheMeshWhereTheInstanceIsEntered) {
     const Scene sphere = test::sphereScene(16, 8);

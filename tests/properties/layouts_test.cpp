@@ -1,4 +1,4 @@
-// Every layout, over trees of awkward scenes: it moves pairs of siblings, and nothing else.
+// Tests every layout with trees of awkward scenes: it must move pairs of siblings, and change nothing else.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace bvhio {
 namespace {
 
-/// Weights that areas would never give: random, but never above the parent's.
+/// Returns weights unlike areas: random, but at most the parent's.
 PairWeights randomWeights(const Bvh& bvh, uint64_t seed) {
     Random random(seed);
     PairWeights weights(bvh.nodes.size() / 2, 1000);
@@ -25,8 +25,8 @@ PairWeights randomWeights(const Bvh& bvh, uint64_t seed) {
     return weights;
 }
 
-/// The weights of the same pairs in another order, known by their boxes' place in the tree: both trees are
-/// walked side by side.
+/// Returns the weights of the same pairs in another order. Pairs are matched by walking both trees side by
+/// side.
 PairWeights weightsIn(const Bvh& to, const Bvh& from, const PairWeights& weights) {
     PairWeights moved(weights.size(), weights[0]);
     std::vector<std::pair<uint32_t, uint32_t>> stack{{0, 0}};
@@ -58,7 +58,7 @@ std::vector<std::pair<const test::TestScene*, std::string_view>> scenesAndBuilde
 
 class EveryLayout : public testing::TestWithParam<Layout> {};
 
-// A pair left out, listed twice, or put before its parent makes a file that readers refuse.
+// If a pair is missing, listed twice, or before its parent, readers reject the file.
 TEST_P(EveryLayout, movesPairsBehindTheirParentsAndChangesNothingElse) {
     for (const auto& [testScene, builder] : scenesAndBuilders()) {
         const Scene scene = testScene->make();
@@ -95,7 +95,7 @@ TEST_P(EveryLayout, movesPairsBehindTheirParentsAndChangesNothingElse) {
     }
 }
 
-// Otherwise the same tree would come out in another order each time a pipeline is run over its own output.
+// Otherwise the order would change each time a pipeline is run on its own output.
 TEST_P(EveryLayout, givesOneOrderWhateverTheOldOne) {
     for (const test::TestScene& testScene : test::testScenes()) {
         SCOPED_TRACE(testScene.name);

@@ -1,5 +1,5 @@
-// Nodes of the aabb form stored in other ways: the same hits, bit by bit, of the same boxes; and what the
-// order of 64-byte records is worth on lines of 64 bytes.
+// Tests other ways to store the nodes of the aabb form: the same boxes must give the same hits, bit by bit.
+// Also tests the effect of the order of 64-byte records on lines of 64 bytes.
 #include "trace/node_storage.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Awkward, NodeStorageInScene,
                          testing::ValuesIn(test::testScenes().begin(), test::testScenes().end()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// Keeps node fetches.
+/// Records the fetches of nodes.
 struct NodeFetches : FetchListener {
     std::vector<std::pair<uint64_t, uint32_t>> heard;
     void rayBegins(size_t) override {}
@@ -93,7 +93,7 @@ TEST(NodeStorage, isRefusedForOtherForms) {
 }
 
 TEST(NodeStorage, isRefusedWhereReferencesAreTooShort) {
-    // 2^16 - 1 triangles of one leaf among more than 2^15 others.
+    // A leaf of 2^16 - 1 triangles among more than 2^15 others.
     const uint32_t large = kMaxLeafSize, count = large + (1 << 15) + 1;
     AlignedVector<Node> nodes(4);
     nodes[0] = {{{0, 0, 0}, {1, 1, 1}}, 2, 0};
@@ -107,7 +107,7 @@ TEST(NodeStorage, isRefusedWhereReferencesAreTooShort) {
     }
 }
 
-/// Misses of node records.
+/// Returns the misses of node records.
 uint64_t misses(const Scene& scene, const Bvh& tree, std::span<const Ray> rays, const NodeStorage& storage,
                 const char* cache) {
     const EncodedBvh bvh = AabbForm(tree);
@@ -118,9 +118,8 @@ uint64_t misses(const Scene& scene, const Bvh& tree, std::span<const Ray> rays, 
     return model.report(rays.size())["misses"].get<uint64_t>();
 }
 
-// Were a layout to gain by 64-byte records on 64-byte lines, something would be wrong with the model: a
-// record shares its line with no other, whatever the order. What order can change is which lines are of one
-// set.
+// A layout must not gain with 64-byte records on 64-byte lines: for any order, a record shares its line with
+// no other record. The order can only change which lines are in the same set.
 TEST(NodeStorage, ofOneRecordALineMissesAlikeInAnyOrder) {
     const Scene scene =
         test::gridScene(110, [](float x, float y) { return float((int(x) * 7 + int(y) * 13) % 5); });

@@ -1,5 +1,5 @@
-// Every form, refitted to a scene whose vertices moved: the same tree, valid over the new triangles, with the
-// hits of brute force.
+// Tests every form after a refit to a scene whose vertices moved: the tree must be the same, valid over the
+// new triangles, and give the hits of brute force.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -17,7 +17,8 @@
 namespace bvhio {
 namespace {
 
-/// The scene with each vertex moved by up to a quarter of the scene's extent: no triangle keeps its shape.
+/// Returns the scene with each vertex moved by up to a quarter of the scene's extent, so that no triangle
+/// keeps its shape.
 Scene crumpled(const Scene& scene) {
     Aabb box = Aabb::empty();
     for (const Vec3& v : scene.vertices) box.extend(v);
@@ -60,7 +61,7 @@ TEST_P(RefitInScene, keepsTheTreeAndFindsTheNewHits) {
         }
 }
 
-// Where nothing moved, tight boxes stay what they were, bit by bit.
+// If nothing moved, tight boxes must stay the same, bit by bit.
 TEST_P(RefitInScene, ofUnmovedTrianglesChangesNothing) {
     const Scene scene = GetParam().make();
     const Bvh bvh = choose(builders(), "builder", "sweep").function(scene, {});

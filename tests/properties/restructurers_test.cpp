@@ -1,5 +1,5 @@
-// Every restructurer, over every builder's trees of awkward scenes: the invariants of tree/bvh.h, and the
-// promise that the cost never rises.
+// Tests every restructurer with every builder's trees of awkward scenes: it must keep the invariants of
+// tree/bvh.h, and never raise the cost.
 #include "restructure/restructurers.h"
 
 #include <gtest/gtest.h>
@@ -33,13 +33,13 @@ std::vector<Case> allCases() {
     return cases;
 }
 
-/// Checks a result against the tree it came from.
+/// Compares a result with the tree that it was made from.
 void expectBetter(const Scene& scene, const Bvh& before, const Bvh& after,
                   const RestructureOptions& options) {
     ASSERT_NO_FATAL_FAILURE(test::expectValid(scene, after, kMaxLeafSize));
     EXPECT_LE(sahCost(after, options.costs), sahCost(before, options.costs));
     EXPECT_EQ(after.nodes[0].bounds, before.nodes[0].bounds);
-    // References may be joined, never added.
+    // References may be joined, but never added.
     EXPECT_LE(after.primitives.size(), before.primitives.size());
     if (!options.collapse) {
         EXPECT_EQ(after.nodes.size(), before.nodes.size());
@@ -95,7 +95,7 @@ TEST_P(EveryRestructurer, takesItsOptionsAtTheirLimits) {
             options.recordCosts = true;
             const Restructured result = restructurer->function(scene, before, options);
             ASSERT_NO_FATAL_FAILURE(expectBetter(scene, before, result.bvh, options));
-            // What is recorded last is what came out, unless the given tree was cheaper.
+            // The last recorded cost is the result's, unless the given tree was cheaper.
             if (result.iterations.empty()) continue;
             EXPECT_NEAR(sahCost(result.bvh, options.costs),
                         std::min(result.iterations.back().sahCost, sahCost(before, options.costs)),
@@ -126,7 +126,7 @@ TEST_P(RestructurerOverManyTriangles, givesTheSameBytesWithAnyNumberOfThreads) {
     }
 }
 
-// Areas that differ on one processor rank places and treelets otherwise.
+// If areas differed on one processor, places and treelets would be chosen differently.
 TEST_P(RestructurerOverManyTriangles, givesTheSameBytesOnEveryProcessor) {
     const Scene scene = test::sceneOf(test::randomTriangles(20000, 1, 0.05f));
     const Bvh before = builders()[0].function(scene, {});

@@ -1,4 +1,4 @@
-// What must hold of the statistics of any builder's tree over any scene.
+// Tests properties that the statistics of every builder's tree over any scene must have.
 #include <gtest/gtest.h>
 
 #include "build/builders.h"

@@ -1,4 +1,4 @@
-// Every tree that can be made comes back from its topology bit by bit: nodes, their order, leaves' ranges and
+// Tests that every tree comes back from its topology bit by bit: nodes, their order, leaves' ranges and
 // boxes.
 #include <gtest/gtest.h>
 
@@ -42,8 +42,8 @@ TEST_P(TopologyOfScene, givesBackTreesInAnyOrder) {
     }
 }
 
-// Boxes as forms reconstruct them are larger than a refit's, and pairs of divided leaves stand behind all
-// others.
+// The boxes that forms reconstruct are larger than those of a refit, and the pairs of divided leaves come
+// after all others.
 TEST_P(TopologyOfScene, givesBackTreesThatFormsDecodeTo) {
     const Scene scene = GetParam().make();
     const Bvh bvh = builders().front().function(scene, {.costs = {}, .maxLeafSize = 13});

@@ -1,5 +1,5 @@
-// The two-level form in every pair of forms for its levels, over awkward scenes: hits equal brute force,
-// boxes hold those that they were made from, and files give back what was written.
+// Tests the two-level form with every pair of forms for its levels, over awkward scenes: hits equal brute
+// force, boxes contain those that they were made from, and files return what was written.
 #include <gtest/gtest.h>
 
 #include <cstring>

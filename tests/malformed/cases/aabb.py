@@ -1,4 +1,4 @@
-"""Malformed files of the aabb form: aabb.md, and every tree: chunks.md."""
+"""Malformed files of the aabb form (aabb.md) and of every tree (chunks.md)."""
 import struct
 
 import zstandard
@@ -31,7 +31,7 @@ simple(4003, "split_triangle_apart", lambda f: f.patch("NODE", 3 * NODE, "6f", 0
 
 
 def rebuild(f, nodes, primitives, vertices=None, triangles=None, depth=None):
-    """Another tree, as a list of (box, first, count), over the file's or other geometry."""
+    """Replaces the tree by a list of (box, first, count), over the file's or another geometry."""
     if vertices:
         f.replace("VERT", b"".join(struct.pack("<3f", *v) for v in vertices))
         f.replace("TRIS", b"".join(struct.pack("<3I", *t) for t in triangles))
@@ -47,7 +47,7 @@ UNUSED = ((0,) * 6, 0, 0)
 
 
 def points(count):
-    """Geometry: so many triangles, all of them the one point."""
+    """Returns a geometry of `count` triangles that are all the same point."""
     return {"vertices": [POINT], "triangles": [(0, 0, 0)] * count}
 
 

@@ -1,4 +1,4 @@
-"""Malformed files of which chunks there are, and the scene: chunks.md."""
+"""Malformed files of the set of chunks and of the scene (chunks.md)."""
 from damage import Chunk, set_field, simple
 
 simple(2001, "unknown_critical", lambda f: f.chunks.insert(1, Chunk(b"NEWC", 1, b"?")))

@@ -1,4 +1,4 @@
-"""Malformed files of clusters beside the aabb form: clusters.md."""
+"""Malformed files of clusters next to the aabb form: clusters.md."""
 import struct
 
 from damage import Chunk, case, set_field, simple

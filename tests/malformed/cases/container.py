@@ -57,7 +57,7 @@ def zstd_bomb(f):
 
 
 def zstd_case(name, make):
-    """An ancillary chunk with this stored payload; its raw payload is 3000 bytes that hardly compress."""
+    """Adds an ancillary chunk with this stored payload. Its raw payload is 3000 bytes that hardly compress."""
     def damage(f):
         raw = b"".join(struct.pack("<Q", hash64(bytes([i % 256, i // 256]))) for i in range(375))
         f.chunks.insert(1, Chunk(b"xNEW", 0, raw, 1, make(raw)))

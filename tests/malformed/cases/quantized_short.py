@@ -8,7 +8,7 @@ QUSH, SHORT_GRID = "two_triangles_quantized_short", "grid_quantized_short"
 
 
 def short_slot(f, wanted):
-    """The first slot whose words are as wanted."""
+    """Returns the first slot whose words satisfy a condition."""
     return next(i for i, words in enumerate(struct.iter_unpack("<2I", f["NODE"].raw)) if wanted(*words))
 
 

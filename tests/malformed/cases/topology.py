@@ -28,7 +28,7 @@ def bitmap_size(f):
 
 
 def patch_parent(f, pair, distance):
-    """Of the shuffled grid, which has under 128 pairs: the lowest byte is all."""
+    """Damages the shuffled grid, which has less than 128 pairs, so that the lowest byte is enough."""
     return f.patch("TOPO", 64 + bitmap_size(f) + pair - 1, "B", distance)
 
 

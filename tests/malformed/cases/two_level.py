@@ -53,7 +53,7 @@ OVER_MVH, ONE_MVH = "grid_quantized_over_mvh", "two_triangles_over_mvh"
 
 
 def leaf_word(f):
-    """Where the first leaf's word is."""
+    """Returns the place of the first leaf's word."""
     raw = f["TLAS"].raw
     return next(at for r in range(0, len(raw), 16) for at in (r + 8, r + 12) if raw[at + 3] >> 7)
 

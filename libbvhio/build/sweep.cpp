@@ -239,8 +239,7 @@ class SweepSplitter {
         return bounds;
     }
 
-    mutable Buffer<uint8_t>
-        marks_;  // by primitive; ranges that are divided at the same time share no primitives
+    mutable Buffer<uint8_t> marks_;  // by primitive; ranges that are divided at once share no primitives
 };
 
 Bvh build(const Scene& scene, const BuildOptions& options) {

@@ -116,8 +116,8 @@ void splitAtMedian(const ReferenceArrays& references, const Range& range, Range&
         std::vector<CentroidKey> keys(range.count);
         for (uint32_t i = 0; i < range.count; ++i) keys[i] = {source[i].centroid(axis), source[i].primitive};
         std::nth_element(keys.begin(), keys.begin() + half, keys.end());
-        const CentroidKey first =
-            keys[half];  // of the right half; all keys differ, so the halves do not depend on the library
+        // The first key of the right half. All keys differ, so the halves do not depend on the library.
+        const CentroidKey first = keys[half];
         for (uint32_t i = 0; i < range.count; ++i)
             move(source[i], CentroidKey{source[i].centroid(axis), source[i].primitive} < first);
     } else {

@@ -53,8 +53,8 @@ struct Band {
 /// points of a pixel divide the heights among them, so that the sixteen rays of a pixel cover the hemisphere
 /// evenly, with much less noise than sixteen random rays.
 std::array<Vec3d, kAmbientRays> ambientDirections(Vec3d normal, uint32_t share, Random& random) {
-    const double squared =
-        (share + double(random.uniform())) / (kSide * kSide);  // the squared sine to the normal
+    // The squared sine of the angle to the normal.
+    const double squared = (share + double(random.uniform())) / (kSide * kSide);
     Vec3d across;
     do across = cross(normal, cosineDirection(normal, random));
     while (dot(across, across) < 1e-12);

@@ -33,7 +33,7 @@ Vec3 parsePoint(std::string_view whole, std::string_view what, std::string_view 
 }
 
 /// Returns what is wrong with a camera; "" if nothing is.
-std::string fault(const Camera& c) {
+std::string findFault(const Camera& c) {
     if (!isFinite(c.eye) || !isFinite(c.target) || !isFinite(c.up)) return "a coordinate is not finite";
     if (!(c.fov >= 0.01f && c.fov <= 175)) return "the angle must be from 0.01 to 175 degrees";
     const Vec3d forward = normalize(Vec3d(c.target) - Vec3d(c.eye));
@@ -67,7 +67,7 @@ Camera parseCamera(std::string_view text) {
         camera.up = parsePoint(text, "up", parts[3]);
     else if (camera.eye.x == camera.target.x && camera.eye.z == camera.target.z)
         camera.up = {0, 0, -1};
-    if (const std::string why = fault(camera); !why.empty()) refuse(text, why);
+    if (const std::string why = findFault(camera); !why.empty()) refuse(text, why);
     return camera;
 }
 
@@ -81,7 +81,7 @@ std::string formatCamera(const Camera& camera) {
 }
 
 CameraFrame cameraFrame(const Camera& camera) {
-    if (const std::string why = fault(camera); !why.empty()) refuse(formatCamera(camera), why);
+    if (const std::string why = findFault(camera); !why.empty()) refuse(formatCamera(camera), why);
     const Vec3d forward = normalize(Vec3d(camera.target) - Vec3d(camera.eye));
     const Vec3d right = normalize(cross(forward, normalize(Vec3d(camera.up))));
     return {right, cross(right, forward), forward};

@@ -42,8 +42,8 @@ uint64_t mortonKey(const Ray& ray, const Aabb& origins) {
                   double(ray.direction.z) * ray.direction.z);
     for (int axis = 0; axis < 3; ++axis) {
         const double size = double(origins.max[axis]) - origins.min[axis];
-        const double at =
-            (double(ray.origin[axis]) - origins.min[axis]) / size;  // NaN, and so 0, if all origins are equal
+        // NaN if all origins are equal, which quantize turns into 0.
+        const double at = (double(ray.origin[axis]) - origins.min[axis]) / size;
         octant = octant * 2 + std::signbit(ray.direction[axis]);
         key |= spread(quantize(at)) << (5 - axis);
         key |= spread(quantize(std::fabs(double(ray.direction[axis])) / l)) << (2 - axis);

@@ -18,9 +18,8 @@ enum LayoutUses : uint32_t {
 };
 
 struct LayoutOptions {
-    uint32_t lineSize = 64;  // bytes of a cache line
-    uint32_t recordBytes =
-        16;                // bytes of a pair's record in the form that the order is for; quantized has 16
+    uint32_t lineSize = 64;     // bytes of a cache line
+    uint32_t recordBytes = 16;  // bytes of a pair's record in the form that the order is for (quantized: 16)
     float threshold = -1;  // treelets contain children above this probability; below 0: the layout's default
     uint32_t treeletSize = 0;  // the most pairs of a treelet; 0: the layout's default
     uint32_t pointerBits = 8;  // of a reference within an address cluster

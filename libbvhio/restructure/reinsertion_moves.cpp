@@ -28,7 +28,7 @@ SubtreeMoves::Small SubtreeMoves::inner(const Aabb& box, const Small& left, cons
     return {std::min(traversal_ * area + left.cost + right.cost, intersection_ * area * count), count};
 }
 
-bool SubtreeMoves::isLeafInTheEnd(uint32_t slot) const {
+bool SubtreeMoves::becomesLeaf(uint32_t slot) const {
     const Node& node = tree_[slot];
     const Small& small = small_[slot];
     return node.isLeaf() ||

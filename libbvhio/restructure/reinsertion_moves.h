@@ -34,7 +34,7 @@ class SubtreeMoves {
 
     const TreeEditor& tree() const { return tree_; }
     /// Returns whether a node is a leaf, or would become a leaf.
-    bool isLeafInTheEnd(uint32_t slot) const;
+    bool becomesLeaf(uint32_t slot) const;
     /// The following functions are for code that changes the tree itself. Returns the content of a slot.
     Content content(uint32_t slot) const { return {tree_[slot], small_[slot]}; }
     /// Puts a content into a slot.

@@ -14,7 +14,7 @@ ReinsertionTreelet::ReinsertionTreelet(const SubtreeMoves& moves, uint32_t root,
     parts_.reserve(2 * maxLeaves);
     std::vector<std::pair<double, uint32_t>> open;  // a heap: the largest area first; of equals, the first
     const auto consider = [&](uint32_t part) {
-        if (moves.isLeafInTheEnd(parts_[part].slot)) return;
+        if (moves.becomesLeaf(parts_[part].slot)) return;
         open.push_back({parts_[part].area, ~part});
         std::push_heap(open.begin(), open.end());
     };
@@ -43,7 +43,7 @@ uint32_t ReinsertionTreelet::add(const Node& node, uint32_t slot) {
 std::vector<uint32_t> ReinsertionTreelet::openLeaves(const SubtreeMoves& moves) const {
     std::vector<uint32_t> slots;
     for (const Part& part : parts_)
-        if (part.isLeaf() && !moves.isLeafInTheEnd(part.slot)) slots.push_back(part.slot);
+        if (part.isLeaf() && !moves.becomesLeaf(part.slot)) slots.push_back(part.slot);
     return slots;
 }
 

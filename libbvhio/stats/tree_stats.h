@@ -12,8 +12,7 @@
 namespace bvhio {
 
 struct TreeStats {
-    uint64_t references =
-        0;  // entries of Bvh::primitives; more than the scene's triangles if splits duplicated some
+    uint64_t references = 0;  // entries of Bvh::primitives; more than the triangles if splits duplicated some
     uint64_t nodes = 0, innerNodes = 0, leaves = 0;
     uint32_t maxDepth = 0;  // edges from the root
     double averageLeafDepth = 0;

@@ -60,8 +60,8 @@ void ConnectedParts::solve(uint32_t item) {
 std::vector<uint32_t> ConnectedParts::firstItems() const {
     std::vector<uint32_t> firstItems(items_.size());
     std::vector<uint32_t> parents(items_.size());
-    std::vector<uint16_t> joined(items_.size(),
-                                 0);  // items of the part in this item's subtree; 0: it starts a part
+    // The number of items of the parent's part in each item's subtree. 0: the item starts a part.
+    std::vector<uint16_t> joined(items_.size(), 0);
     for (uint32_t item = 0; item < items_.size(); ++item) {
         const bool starts = joined[item] == 0;
         firstItems[item] = starts ? item : firstItems[parents[item]];

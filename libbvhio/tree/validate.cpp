@@ -105,9 +105,8 @@ struct Validator {
 
     Findings findings{maxPerId};
     std::vector<uint32_t> parentOfPair;  // index of the parent + 1; 0 if there is no parent
-    std::vector<uint16_t>
-        leafAt;  // size of the leaf that starts at this entry of `primitives`; 0 if none does
-    std::vector<uint8_t> inLeaf;  // 1 for a primitive that some leaf refers to
+    std::vector<uint16_t> leafAt;        // size of the leaf that starts at an entry of `primitives`, or 0
+    std::vector<uint8_t> inLeaf;         // 1 for a primitive that some leaf refers to
     uint32_t treeDepth = 0;
 
     bool split() const { return primitives.size() > primitiveCount; }

@@ -1,20 +1,20 @@
-// What is asked of a ray: its closest hit, or whether it hits anything.
+// Queries for rays: the closest hit, or any hit.
 #pragma once
 
 #include "core/intersect.h"
 
 namespace bvhio {
 
-/// The closest hit; among equal t the lowest primitive index.
+/// Finds the closest hit; among equal t, the one with the lowest primitive index.
 class ClosestHit {
   public:
     explicit ClosestHit(const PreparedRay& ray) : boxLimit_(widen(ray.tMax)) { best_.t = ray.tMax; }
 
-    /// Hits beyond this t are of no interest, hits at it are.
+    /// Returns the largest t at which hits matter.
     BVHIO_INLINE float tLimit() const { return best_.t; }
-    /// Boxes beyond this t are of no interest.
+    /// Returns the largest t at which boxes matter.
     BVHIO_INLINE float boxLimit() const { return boxLimit_; }
-    /// Takes a hit with t <= tLimit(); true when the query is done.
+    /// Takes a hit with t <= tLimit(). Returns whether the query is done.
     BVHIO_INLINE bool offer(const Hit& hit) {
         if (hit.t < best_.t || hit.primitive < best_.primitive) {
             best_ = hit;
@@ -29,8 +29,8 @@ class ClosestHit {
     float boxLimit_;
 };
 
-/// A query as seen from within an instance whose box the ray enters at `enter`: takes those hits that the
-/// definition in scene/instance.h allows, triangles' indices turned into the instance's primitives.
+/// A query inside an instance, whose box the ray enters at `enter`. It takes only hits that the definition in
+/// scene/instance.h allows, and turns indices of triangles into the instance's primitives.
 template <class Query>
 class InstanceQuery {
   public:
@@ -50,7 +50,7 @@ class InstanceQuery {
     uint32_t primitiveOffset_;
 };
 
-/// Whether there is any hit.
+/// Finds out whether there is any hit.
 class AnyHit {
   public:
     explicit AnyHit(const PreparedRay& ray) : tLimit_(ray.tMax), boxLimit_(widen(ray.tMax)) {}

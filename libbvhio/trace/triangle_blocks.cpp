@@ -10,9 +10,9 @@ namespace {
 
 constexpr float kErrorPerUnit = 25 * 0x1p-24f;
 constexpr float kRoundUp = 1 + 0x1p-20f;  // covers the rounding of the bounds themselves
-// Beyond this size products of four coordinates overflow: such triangles go to the test in double.
+// Above this size products of four coordinates overflow, so such triangles always go to the test in double.
 constexpr float kLargest = 1e18f;
-// Covers underflow: the square of it is well above the smallest floats.
+// Covers underflow: its square is well above the smallest floats.
 constexpr float kSmallestError = 0x1p-70f;
 
 float largestComponent(Vec3 v) {
@@ -30,7 +30,7 @@ float errorBound(float size) {
 
 TriangleBlocks::TriangleBlocks(const Scene& scene, std::span<const uint32_t> primitives,
                                std::span<const PrimitiveRange> leaves)
-    : data_(kRowCount * primitives.size() + 3) {  // the last row is read four at a time too
+    : data_(kRowCount * primitives.size() + 3) {  // the last row is also read four at a time
     std::fill_n(data_.data() + data_.size() - 3, 3, 0.0f);
     Aabb box = Aabb::empty();
     for (const Vec3& v : scene.vertices) box.extend(v);

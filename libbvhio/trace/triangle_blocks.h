@@ -1,4 +1,4 @@
-// Triangles rearranged for tracing: a block for each leaf, laid out so that four are tested at once.
+// Triangles rearranged for tracing: a block for each leaf, in a layout for testing four triangles at once.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,22 @@
 
 namespace bvhio {
 
-/// The block of a leaf with n triangles: 12 rows of n floats, one column for each triangle, 48 bytes for
-/// each. The block of the leaf that owns primitives[first, first + n) starts at row float 12 * first: no
-/// index to look up, no padding.
+/// The blocks of all leaves. The block of a leaf with n triangles has 12 rows of n floats, with a column of
+/// 48 bytes for each triangle. The block of the leaf that owns primitives[first, first + n) starts at float
+/// 12 * first, without an index to look up and without padding.
 ///
-/// A test reads four columns of a row at once, so in the last columns it reads into the next row (and masks
-/// those lanes out). Row 0 holds the triangle indices; they are biased so that, read as floats by mistake,
-/// they are not denormal, since arithmetic on denormals is many times slower on some processors.
+/// A test reads four columns of a row at once, so in the last columns it also reads from the next row (and
+/// masks these lanes out). Row 0 has the indices of triangles. They are biased so that they are not denormal
+/// when they are read as floats: arithmetic on denormals is many times slower on some processors.
 ///
-/// The last two rows bound the rounding errors of a test in float. With u = 2^-24, half a unit in the last
-/// place: the sheared coordinates of hitTriangle, computed in float, are off by at most e = 6.1 u M, where M
-/// bounds every coordinate of the triangle relative to the ray's origin. When hitTriangle accepts, they are
-/// at most 2 L, where L is the longest side of the triangle's box; so each edge function, a difference of two
-/// products of them, is off by at most 12 e L + 2 e^2. A larger bound takes two additions and a product:
-/// (error + rayError) * (reach + rayError), with error + rayError = 25 u M and reach = 4 L + error. M is
-/// split at a centre c that all blocks share, |v - o| <= |v - c| + |o - c|: the first term is in `error`, the
-/// second in `rayError`.
+/// The last two rows bound the rounding errors of a test in float. Let u = 2^-24, half a unit in the last
+/// place. The sheared coordinates of hitTriangle, computed in float, have errors of at most e = 6.1 u M,
+/// where M bounds every coordinate of the triangle relative to the ray's origin. If hitTriangle accepts, they
+/// are at most 2 L, where L is the longest side of the triangle's box. So each edge function, a difference of
+/// two products of them, has an error of at most 12 e L + 2 e^2. A larger bound needs only two additions and
+/// a product: (error + rayError) * (reach + rayError), with error + rayError = 25 u M and reach = 4 L +
+/// error. M is split at a centre c that all blocks share,
+/// |v - o| <= |v - c| + |o - c|: the first term is in `error`, the second in `rayError`.
 class TriangleBlocks {
   public:
     enum Row : uint32_t { kIndexRow = 0, kVertexRows = 1, kErrorRow = 10, kReachRow = 11, kRowCount = 12 };
@@ -39,11 +39,11 @@ class TriangleBlocks {
     BVHIO_INLINE const float* block(uint32_t firstPrimitive) const {
         return data_.data() + size_t(kRowCount) * firstPrimitive;
     }
-    /// The ray's share of the error bound, for rays from `origin`.
+    /// Returns the ray's part of the error bound, for rays from `origin`.
     float rayError(Vec3 origin) const;
     size_t bytes() const { return data_.size() * sizeof(float); }
 
-    /// Column i of a block of n triangles.
+    /// Returns the triangle in column i of a block of n triangles.
     static BVHIO_INLINE Triangle triangle(const float* block, uint32_t n, uint32_t i) {
         const float* column = block + kVertexRows * size_t(n) + i;
         const auto vertex = [&](size_t v) {

@@ -1,7 +1,7 @@
-// Tests the blocks of a leaf, four triangles at a time. Per target, like trace/traverse.h.
+// Tests the block of a leaf, four triangles at a time. Compiled for each target, like trace/traverse.h.
 //
-// Four triangles go through the sheared edge functions in float. A lane is dropped only when two of its edge
-// functions have opposite signs beyond any doubt (see TriangleBlocks); the few that stay are put to
+// The sheared edge functions of four triangles are computed in float. A lane is dropped only if two of its
+// edge functions certainly have opposite signs (see TriangleBlocks). The few remaining triangles go to
 // hitTriangle, which alone decides. So hits are the same, bit for bit, as without blocks.
 #if defined(BVHIO_TRACE_TRIANGLE_BLOCKS_SIMD_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_TRIANGLE_BLOCKS_SIMD_H
@@ -19,8 +19,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
-// In each loop that tests triangles; but not in builds with sanitizers, whose checks make copies of it long
-// to compile.
+// Inlined into each loop that tests triangles, but not in builds with sanitizers, whose checks make each copy
+// slow to compile.
 #undef BVHIO_INLINE_TEST
 #ifdef BVHIO_SANITIZED
 #define BVHIO_INLINE_TEST HWY_NOINLINE
@@ -28,9 +28,9 @@ namespace bvhio::HWY_NAMESPACE {
 #define BVHIO_INLINE_TEST HWY_INLINE
 #endif
 
-/// The source of triangles for one ray.
+/// The triangles of the blocks, for one ray.
 class BlockTriangles {
-    // Four lanes; one on the most basic processors.
+    // Four lanes, or one on the most basic processors.
     using D = hwy::HWY_NAMESPACE::CappedTag<float, 4>;
     using Floats = hwy::HWY_NAMESPACE::Vec<D>;
     static constexpr int kLanes = HWY_TARGET == HWY_SCALAR ? 1 : 4;
@@ -44,7 +44,7 @@ class BlockTriangles {
           shearX_(float(ray.shearX)),
           shearY_(float(ray.shearY)) {}
 
-    /// The same triangles, for another ray.
+    /// Returns the same triangles for another ray.
     HWY_INLINE BlockTriangles of(const PreparedRay& ray) const { return {blocks_, ray}; }
 
     template <class Query>
@@ -69,7 +69,7 @@ class BlockTriangles {
         Floats x, y;
     };
 
-    /// Vertices in the three rows of `stride` floats that start at `rows`.
+    /// Shears the vertices in the three rows of `stride` floats that start at `rows`.
     HWY_INLINE Sheared shear(const float* rows, size_t stride, const PreparedRay& ray) const {
         namespace hn = hwy::HWY_NAMESPACE;
         const D d;
@@ -81,7 +81,7 @@ class BlockTriangles {
         return {hn::Sub(x, hn::Mul(hn::Set(d, shearX_), z)), hn::Sub(y, hn::Mul(hn::Set(d, shearY_), z))};
     }
 
-    /// One bit for each of four columns that hitTriangle may accept.
+    /// Returns a bit for each of four columns, set if hitTriangle may accept it.
     HWY_INLINE uint32_t candidates(const float* columns, size_t stride, const PreparedRay& ray) const {
         namespace hn = hwy::HWY_NAMESPACE;
         const D d;
@@ -99,8 +99,8 @@ class BlockTriangles {
                 hn::Mul(hn::Add(hn::LoadU(d, columns + TriangleBlocks::kErrorRow * stride), rayError),
                         hn::Add(hn::LoadU(d, columns + TriangleBlocks::kReachRow * stride), rayError));
             const auto minusError = hn::Neg(error);
-            // Each comparison on its own, not of a minimum and a maximum: a NaN must neither hide what the
-            // others say nor count.
+            // Each weight is compared by itself, instead of the minimum and the maximum: a NaN must neither
+            // count nor hide the others.
             const auto positive =
                 hn::Or(hn::Or(hn::Gt(weight0, error), hn::Gt(weight1, error)), hn::Gt(weight2, error));
             const auto negative = hn::Or(hn::Or(hn::Lt(weight0, minusError), hn::Lt(weight1, minusError)),

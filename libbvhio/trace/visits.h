@@ -1,4 +1,4 @@
-// How often rays fetch each pair of siblings: what layouts can be made from.
+// Counts how often rays fetch each pair of siblings, for layouts.
 #pragma once
 
 #include <span>
@@ -9,10 +9,9 @@
 
 namespace bvhio {
 
-/// Runs the queries through the tree, as the aabb form traces it, and counts by half the index of a pair's
-/// left node how many of the rays fetch it. The first element, of the root and the unused slot, counts the
-/// rays that are traced at all: that do not miss by definition. No pair's count is above that of the pair
-/// which holds its parent.
+/// Traces the rays through the tree like the aabb form, and returns how many rays fetch each pair, by half
+/// the index of its left node. The first element, for the root and the unused slot, counts the rays that do
+/// not miss by definition. A pair's count is at most that of the pair that holds its parent.
 std::vector<uint32_t> countVisits(const Scene& scene, const Bvh& bvh, std::span<const Ray> rays, Query query);
 
 }  // namespace bvhio

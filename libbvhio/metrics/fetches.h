@@ -1,9 +1,9 @@
-// What traversal reads, told to listeners in the order in which one thread reads it.
+// Reports the data that traversal fetches to listeners, in the order in which one thread fetches it.
 //
-// A fetch is a run of bytes in one of four arrays: node records, as the form's step tells them; and of each
-// triangle of a leaf that is entered, as BLB counts them (metrics/metrics.h): its entry in the primitive
-// array, its three indices, its three vertices. These are the scene's arrays: the copy of the triangles that
-// timed runs use (trace/triangle_blocks.h) is none of them.
+// A fetch is a run of bytes in one of four arrays: the node records that the form's step reports; and, for
+// each triangle of an entered leaf, its entry in the primitive array, its three indices and its three
+// vertices, as BLB counts them (metrics/metrics.h). These are the scene's arrays. The copy of the triangles
+// that timed runs use (trace/triangle_blocks.h) is not one of them.
 #pragma once
 
 #include <array>
@@ -19,18 +19,18 @@ enum class FetchedArray : uint8_t { nodes, primitives, indices, vertices };
 inline constexpr std::array<std::string_view, 4> kFetchedArrayNames{"nodes", "primitives", "indices",
                                                                     "vertices"};
 
-/// The sizes of the arrays in bytes: every fetch lies within.
+/// The sizes of the arrays in bytes. Every fetch is inside its array.
 using FetchedArraySizes = std::array<uint64_t, 4>;
 
 class FetchListener {
   public:
     virtual ~FetchListener() = default;
-    /// What follows is of the ray traced index-th.
+    /// Starts the fetches of the ray that is traced index-th.
     virtual void rayBegins(size_t index) = 0;
     virtual void fetched(FetchedArray array, uint64_t offset, uint32_t bytes) = 0;
 };
 
-/// The metrics policy that tells listeners; nearly free when there are none. Call `beginRay` before each ray.
+/// The metrics policy that reports to listeners; almost free without any. Call `beginRay` before each ray.
 class FetchMetrics : public NoMetrics {
   public:
     /// `primitives` is the form's primitive array.
@@ -46,11 +46,11 @@ class FetchMetrics : public NoMetrics {
             listener->fetched(FetchedArray::nodes, offset, uint32_t(bytes));
     }
     void leafEntered(PrimitiveRange range) {
-        if (!listeners_.empty()) tellTriangles(range);
+        if (!listeners_.empty()) reportTriangles(range);
     }
 
   private:
-    void tellTriangles(PrimitiveRange range) const;
+    void reportTriangles(PrimitiveRange range) const;
 
     std::span<FetchListener* const> listeners_;
     const Scene& scene_;

@@ -1,19 +1,19 @@
-// How far traversal jumps in memory: the locality metrics, over the buffer of node records.
+// The locality metrics: how far traversal jumps in the buffer of node records.
 //
-// A fetch reads one node record; its address is the record's byte offset in the form's node buffer (primitive
-// ids and vertices are separate buffers, and not counted). Fetches are consecutive when one ray makes them
-// one after the other, whether the second follows from the first or was popped from the stack. A ray's first
-// fetch has no predecessor, so rays are independent, and the numbers depend neither on the order of rays nor
-// on threads. Each is measured for T in kLocalitySizes:
+// A fetch reads one node record. Its address is the record's byte offset in the form's node buffer (primitive
+// ids and vertices are in other buffers, and not counted). Two fetches are consecutive if a ray makes them
+// one after the other, whether the second node is below the first or was popped from the stack. The first
+// fetch of a ray has no predecessor, so rays are independent, and the numbers do not depend on the order of
+// rays or on threads. Each metric is measured for every T in kLocalitySizes:
 //
 // LJC(T)  per ray  Long jumps: fetches whose offset differs from the previous fetch's by at least T bytes.
-// CMC(T)  per ray  Block changes: fetches whose first byte lies in another T-byte block than the previous
-//                  fetch's: the misses of a cache of a single line of T bytes.
+// CMC(T)  per ray  Block changes: fetches whose first byte is in another T-byte block than the first byte of the
+//                  previous fetch. These are the misses of a cache with a single line of T bytes.
 // WSS(T)           The working set: distinct T-byte blocks in which a fetched record begins, over all rays
 //                  of the run.
 //
-// The names and the five sizes are the HeavyRT renderer's; it leaves the block where a ray starts out of WSS,
-// we do not.
+// The names and the five sizes are those of the HeavyRT renderer. It does not count the block where a ray
+// starts in WSS; we do.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct LocalityCounts {
     bool operator==(const LocalityCounts&) const = default;
 };
 
-/// The metrics policy that follows addresses. Call `finishRay` after each ray.
+/// The metrics policy that counts locality. Call `finishRay` after each ray.
 class LocalityMetrics : public NoMetrics {
   public:
     explicit LocalityMetrics(size_t nodeBytes) : touched_(nodeBytes / kLocalitySizes[0] / 64 + 1) {}
@@ -52,7 +52,7 @@ class LocalityMetrics : public NoMetrics {
 
     void finishRay() { previous_ = kNone; }
 
-    /// Adds what another part of the run saw, over the same nodes.
+    /// Adds the counts of another part of the run, over the same nodes.
     void add(const LocalityMetrics& other) {
         for (size_t i = 0; i < kLocalitySizes.size(); ++i) {
             sums_.longJumps[i] += other.sums_.longJumps[i];

@@ -1,26 +1,26 @@
-// What traversal costs, counted: the definitions, once, for every form.
+// Counts of the costs of traversal, with the same definitions for every form.
 //
-// A query is one ray asked for its closest hit or for any hit. "Per ray" means: the sum over all rays divided
-// by their number. Every sum is of integers, so the numbers do not depend on the number of threads, nor on
-// the processor.
+// A query finds the closest hit or any hit of one ray. "Per ray" means the sum over all rays, divided by
+// their number. All sums are sums of integers, so the numbers do not depend on the number of threads or the
+// processor.
 //
-// NC       per ray  Boxes tested against the ray: 1 for the root, and at each inner node that is stepped
-//                   through 1 for each child.
+// NC       per ray  Boxes tested against the ray: 1 for the root, and 1 for each child of each
+//                   inner node that the ray steps through.
 // LC       per ray  Leaves entered, so that their triangles are tested.
-// TC       per ray  Triangles tested: the triangle count of each leaf entered (also when an any-hit query
-//                   ends within the leaf, and when four are tested at once).
+// TC       per ray  Triangles tested: the triangle count of each leaf entered (also if an any-hit query ends
+//                   inside the leaf, and if four are tested at once).
 // AOC      per ray  Arithmetic operations of the box tests: subtractions and multiplications, plus
 //                   comparisons, minima and maxima. A full box takes 12 + 12: 6 differences, 6 products; 6
 //                   minima or maxima for near and far, 4 to merge the axes, 2 to compare with the ray's
-//                   interval and the nearest hit. Both parts are also reported apart.
-// BLB      per ray  Bytes read: the size of each node record fetched (aabb: 32 for the root, 64 for a pair of
-//                   siblings), and 52 for each triangle tested: 4 of the primitive array, 12 of indices, 36
-//                   of vertices.
+//                   interval and the nearest hit. Both parts are also reported separately.
+// BLB      per ray  Bytes read: the size of each fetched node record (aabb: 32 for the root, 64 for a pair of
+//                   siblings), and 52 for each tested triangle: 4 of the primitive array, 12 of indices, 36 of
+//                   vertices.
 // LCV               The standard deviation over rays of LC: sqrt(E[LC^2] - E[LC]^2).
-// records  per ray  Node records fetched; what a form reads beside its nodes to find a leaf's triangles is
-//                   one.
+// records  per ray  Node records fetched. Other data that a form reads to find a leaf's triangles counts as
+//                   a record.
 // SOC      per ray  Stack operations: pushes and pops.
-// SBL      per ray  Bytes that those move.
+// SBL      per ray  Bytes moved by stack operations.
 //
 // Locality (LJC, CMC, WSS) is in metrics/locality.h. Sources of the names and of LCV: T. Aila, T. Karras, S.
 // Laine, "On Quality Metrics of Bounding Volume Hierarchies", HPG 2013, and the metrics of the HeavyRT
@@ -82,7 +82,7 @@ struct TraversalCounts {
     bool operator==(const TraversalCounts&) const = default;
 };
 
-/// The metrics policy that counts. Call `finishRay` after each ray.
+/// The metrics policy that counts these costs. Call `finishRay` after each ray.
 class CountMetrics : public NoMetrics {
   public:
     void recordFetched(size_t, size_t bytes) {
@@ -122,7 +122,7 @@ class CountMetrics : public NoMetrics {
     TraversalCounts sums_;
 };
 
-/// Several policies at once.
+/// Combines several policies.
 template <class... Policies>
 struct CombinedMetrics {
     std::tuple<Policies&...> policies;
@@ -145,7 +145,7 @@ struct CombinedMetrics {
     }
 };
 
-/// The policy of the bottom of two levels, whose records lie behind the top level's.
+/// The policy of the bottom of two levels, whose records come after those of the top level.
 template <class Policy>
 struct MetricsBehind {
     Policy& policy;

@@ -1,5 +1,5 @@
-// The metrics policy that is free, which is also the base of all others: traversal reports to a policy what
-// it does.
+// The metrics policy without costs, which is also the base of all others. Traversal reports its work to a
+// policy.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace bvhio {
 
-/// The arithmetic of one box test: subtractions and multiplications, and comparisons (minima and maxima
-/// included).
+/// The arithmetic of one box test: subtractions and multiplications; and comparisons, with minima and
+/// maxima.
 struct BoxTestCost {
     uint32_t arithmetic, comparisons;
 };
@@ -19,14 +19,14 @@ struct BoxTestCost {
 /// maxima, 4 to merge the axes, 2 comparisons.
 inline constexpr BoxTestCost kFullBoxTestCost{12, 12};
 
-/// Does nothing: each call vanishes. A policy derives from it and defines what it is interested in.
+/// Does nothing, so each call vanishes. A policy derives from it and defines the functions that it needs.
 struct NoMetrics {
     /// A record was read: its byte offset among the form's nodes, and its size in bytes.
     BVHIO_INLINE void recordFetched(size_t, size_t) {}
     /// Boxes were tested: how many, and the cost of each.
     BVHIO_INLINE void boxesTested(uint32_t, BoxTestCost) {}
     BVHIO_INLINE void leafEntered(PrimitiveRange) {}
-    /// An entry of so many bytes was pushed. Each is popped once, unless an any-hit query ends.
+    /// An entry of a number of bytes was pushed. Each entry is popped once, unless an any-hit query ends.
     BVHIO_INLINE void pushed(size_t) {}
     BVHIO_INLINE void popped(size_t) {}
 };

@@ -18,12 +18,12 @@ import subprocess
 import sys
 import tempfile
 
-from page import write_after_marker
+from page import require_matplotlib, write_after_marker
 
 MARKER = "<!-- compare_forms.py writes what follows -->"
 TREES = [  # key, heading, options of bvh-build
-    ("single", "One triangle a leaf", ["--max-leaf-size", 1]),
-    ("own", "bvh-build's own leaves, of up to four triangles", []),
+    ("single", "One triangle per leaf", ["--max-leaf-size", 1]),
+    ("own", "bvh-build's default leaves, of up to four triangles", []),
 ]
 
 # M. Eisemann, C. Woizischke, M. Magnor, "Ray Tracing with the Single-Slab Hierarchy", VMV 2008, table 1, as quoted in A. Trifonov's
@@ -150,6 +150,8 @@ def main():
     parser.add_argument("--table", help="the page to write the tables to; default: standard output")
     parser.add_argument("--plot", help="draw a plot of size against slowdown")
     options = parser.parse_args()
+    if options.plot:
+        require_matplotlib()
     for scene in options.scenes:
         if "=" not in scene:
             sys.exit(f"compare_forms.py: '{scene}' is not NAME=SCENE")
@@ -185,10 +187,10 @@ def main():
     for key, title, _ in TREES:
         parts.append(f"## {title}\n\n" + summary(scenes, key))
     if ssh_lines:
-        parts.append("## ssh beside its paper\n\n" + heading("scene", "", "triangles", "nodes per ray, BVH → SSH",
+        parts.append("## ssh and its paper\n\n" + heading("scene", "", "triangles", "nodes per ray, BVH → SSH",
                      "triangle tests per ray", "speed, SSH : BVH", "MiB") + "\n" + "\n".join(ssh_lines) + "\n")
     if mvh_lines:
-        parts.append("## mvh and two-level beside their paper\n\n" + heading("scene", "", "triangles", "BVH, bytes per triangle", "mvh", "two-level",
+        parts.append("## mvh, two-level and their paper\n\n" + heading("scene", "", "triangles", "BVH, bytes per triangle", "mvh", "two-level",
                      "BVH : mvh", "BVH : two-level", "slowdown, mvh", "slowdown, two-level") + "\n" + "\n".join(mvh_lines) + "\n")
     for name, rows in scenes:
         for key, title, _ in TREES:

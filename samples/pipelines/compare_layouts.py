@@ -21,7 +21,7 @@ import subprocess
 import sys
 import tempfile
 
-from page import write_after_marker
+from page import require_matplotlib, write_after_marker
 
 MARKER = "<!-- compare_layouts.py writes what follows -->"
 LINES = [64, 128]
@@ -37,8 +37,8 @@ KINDS = [  # key, heading, bytes of a record, options of bvh-compress, bytes tha
     ("8", "8-byte records, if pointers were free", 8, ["--form", "quantized"], 2),
 ]
 NOTES = {  # printed below the table of a kind if all layouts that the note names were compared
-    "64": (("odfs", "tbfs"), "A treelet of **tbfs** has as many records as a line, and a record of 64 bytes fills one of 64: with treelets of one pair "
-                             "**tbfs** is **odfs**, but for the lines of 128."),
+    "64": (("odfs", "tbfs"), "The treelets of **tbfs** have as many records as fit into a line. A 64-byte record fills a line of 64 bytes, so each treelet "
+                             "is one pair, and **tbfs** equals **odfs** except for lines of 128 bytes."),
 }
 CUBE = """v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n"""
 
@@ -257,8 +257,8 @@ def measure_short(tree, rays, options, work):
 
 
 def short_table(scenes):
-    lines = [heading("pointer bits", "bytes of slots per record", "glue", "bytes per ray, to 64-byte dfs", "L1 misses, to 64-byte dfs",
-                     "L1 misses, to 16-byte dfs", "time, to 64-byte dfs", "time, to 16-byte dfs")]
+    lines = [heading("pointer bits", "bytes of slots per record", "glue", "bytes per ray, relative to 64-byte dfs", "L1 misses, relative to 64-byte dfs",
+                     "L1 misses, relative to 16-byte dfs", "time, relative to 64-byte dfs", "time, relative to 16-byte dfs")]
     for bits in POINTER_BITS:
         rows = [(tables["short"][bits], tables["64"][BASE], tables["16"][BASE]) for _, tables in scenes]
         clusters = [row.clusters for row, _, _ in rows]
@@ -273,7 +273,7 @@ def short_table(scenes):
         lines.append(columns(str(bits), f"{mean([c['bytes_per_record'] for c in clusters]):.2f}",
                              f"{100 * sum(c['glue_share'] for c in clusters) / len(clusters):.2f}%",
                              misses(("B1", LINES[0]), 1), misses(("L1", LINES[0]), 1), misses(("L1", LINES[0]), 2), time(1), time(2)))
-    return "## clusters: real 8-byte records with short pointers\n\n" + "\n".join(lines) + "\n"
+    return "## clusters: 8-byte records with short pointers\n\n" + "\n".join(lines) + "\n"
 
 
 def measure_storages(tree, rays, options):
@@ -303,7 +303,7 @@ def storage_table(scenes):
         for combine in (mean, max):
             cells.append(" / ".join(f"{combine([base.rate[order] / own.rate[order] for own, base in pairs]):.2f}" for order in ORDERS))
         lines.append(columns(*cells))
-    return "## Node storage of the aabb form, depth first: over sibling pairs\n\n" + "\n".join(lines) + "\n"
+    return "## Node storage of the aabb form, depth first, relative to sibling pairs\n\n" + "\n".join(lines) + "\n"
 
 
 def bundle_of(rays, path):
@@ -364,6 +364,8 @@ def main():
     parser.add_argument("--table", help="the page to write the tables to; default: standard output")
     parser.add_argument("--plot", help="draw a plot of the fetched addresses")
     options = parser.parse_args()
+    if options.plot:
+        require_matplotlib()
     for scene in options.scenes:
         if "=" not in scene:
             sys.exit(f"compare_layouts.py: '{scene}' is not NAME=SCENE")

@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 
-from page import write_after_marker
+from page import require_matplotlib, write_after_marker
 
 COLUMNS = [  # key, heading, format
     ("chain", "builder + method", "{}"),
@@ -169,6 +169,8 @@ def main():
     parser.add_argument("--table", help="the page to write the tables to; default: standard output")
     parser.add_argument("--plot", help="draw a plot of cost against time")
     options = parser.parse_args()
+    if options.plot:
+        require_matplotlib()
 
     chains = options.chains.split(",") if options.chains else all_chains()
     scenes = []

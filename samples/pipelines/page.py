@@ -1,5 +1,7 @@
 """Writes pages whose head is written by hand and whose tables are written by a script."""
+import importlib.util
 import os
+import sys
 
 
 def write_after_marker(path, marker, text):
@@ -14,3 +16,9 @@ def write_after_marker(path, marker, text):
             head = before + found + "\n\n" if found else ""
     with open(path, "w") as file:
         file.write(head + text)
+
+
+def require_matplotlib():
+    """Ends the script with one line if it cannot draw: before it measures for minutes."""
+    if importlib.util.find_spec("matplotlib") is None:
+        sys.exit(f"{os.path.basename(sys.argv[0])}: --plot needs matplotlib: install it with 'samples/setup.sh plots', or leave --plot out")

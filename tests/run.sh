@@ -25,12 +25,13 @@ build() { # PRESET
     cmake --preset "$1" >/dev/null && cmake --build --preset "$1" -j "$jobs"
 }
 
-# Our files are formatted, scripts parse, and includes point along the house's arrows.
+# Our files are formatted, scripts parse, includes point along the house's arrows, its picture is current, and links lead somewhere.
 style() {
     git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror &&
         git ls-files '*.sh' | xargs -n 1 bash -n &&
         python3 tests/check_arrows.py &&
-        python3 tests/draw_architecture.py --check
+        python3 tests/draw_architecture.py --check &&
+        python3 tests/check_links.py
 }
 
 # Every test, with the build that users run.

@@ -15,11 +15,11 @@ void setPlanes(float* planes, const Aabb& box) {
     }
 }
 
-/// Floats of an array of 16-byte elements.
+/// Returns the number of floats of an array of 16-byte elements.
 size_t floatsOf16(size_t count) {
     if (count > size_t(1) << 28)
-        throw Error(ErrorKind::unsupported, "arrays of 16 bytes hold 2^28 records, not " +
-                                                std::to_string(count) + ": store the nodes in another way");
+        throw Error(ErrorKind::unsupported, "arrays of 16 bytes hold at most 2^28 records, not " +
+                                                std::to_string(count) + ": use another --node-storage");
     return behindArray(0, count * 16) / sizeof(float);
 }
 

@@ -1,16 +1,16 @@
-// Other ways to store the nodes of the aabb form, made in memory to be compared by: the hits are the same.
+// Other ways to store the nodes of the aabb form in memory, for comparisons. The hits are the same.
 //
 // T. Aila and S. Laine, "Understanding the Efficiency of Ray Traversal on GPUs" (HPG 2009), step through
-// records of 64 bytes that hold the boxes of both children and a reference to each. S. Wodniok, A. Schulz, S.
+// records of 64 bytes with the boxes of both children and a reference to each. S. Wodniok, A. Schulz, S.
 // Widmer and M. Goesele, "Analysis of Cache Behavior and Performance of Different BVH Memory Layouts for
 // Tracing Incoherent Rays" (EGPGV 2013), compare these with the same 56 bytes in several arrays: three of 16
-// bytes and one of 8, or one of 32 and one of 24. What goes into which array is our choice; the order of
-// the records is that of the sibling pairs. The root's box is beside the records, not in one.
+// bytes and one of 8, or one of 32 and one of 24. The division of fields into arrays is our choice. Records
+// are in the order of the sibling pairs. The root's box is stored separately.
 //
-// A reference is 32 bits: of a record; or, with the highest bit set, of a leaf: its number of triangles less
-// one above its first entry in the primitive array, in as many bits as the tree needs for each. Boxes are
-// tested plane by plane, so that references never are in lanes beside planes, where as floats they would be
-// denormal and slow.
+// A reference has 32 bits. It is the number of a record, or, with the highest bit set, a leaf: its number of
+// triangles minus 1 above its first entry in the primitive array, with as many bits for each as the tree
+// needs. Boxes are tested plane by plane, so that references are never in lanes next to planes, where as
+// floats they would be denormal and slow.
 #pragma once
 
 #include <variant>
@@ -20,7 +20,7 @@
 
 namespace bvhio {
 
-/// How references tell leaves.
+/// The encoding of references.
 class ChildReferences {
   public:
     explicit ChildReferences(const Bvh& bvh);
@@ -39,12 +39,12 @@ class ChildReferences {
     uint32_t firstBits_;
 };
 
-/// An array's place behind others, for metrics: each begins a cache line.
+/// Returns the place of an array after another one, for metrics. Each array starts at a cache line.
 constexpr size_t behindArray(size_t offset, size_t bytes) {
     return (offset + bytes + 63) / 64 * 64;
 }
 
-/// Both boxes and both references in a record of 64 bytes.
+/// An array of records of 64 bytes with both boxes and both references.
 class RecordArray {
   public:
     struct alignas(64) Record {
@@ -61,7 +61,7 @@ class RecordArray {
     using Ray = const PreparedRay&;
     static const PreparedRay& prepare(const PreparedRay& ray) { return ray; }
     template <class Metrics>
-    BVHIO_INLINE void tell(size_t i, Metrics& metrics) const {
+    BVHIO_INLINE void recordFetches(size_t i, Metrics& metrics) const {
         metrics.recordFetched(i * sizeof(Record), sizeof(Record));
     }
     BVHIO_INLINE RayInterval clip(size_t i, int which, const PreparedRay& ray, float tLimit) const {
@@ -73,7 +73,7 @@ class RecordArray {
     AlignedVector<Record> records_;
 };
 
-/// The left box and both references in 32 bytes, the right box in 24.
+/// An array of 32 bytes with the left box and both references, and an array of 24 bytes with the right box.
 class ArraysOf32And24 {
   public:
     struct Left {
@@ -93,7 +93,7 @@ class ArraysOf32And24 {
     using Ray = const PreparedRay&;
     static const PreparedRay& prepare(const PreparedRay& ray) { return ray; }
     template <class Metrics>
-    BVHIO_INLINE void tell(size_t i, Metrics& metrics) const {
+    BVHIO_INLINE void recordFetches(size_t i, Metrics& metrics) const {
         metrics.recordFetched(i * sizeof(Left), sizeof(Left));
         metrics.recordFetched(rightAt_ + i * sizeof(Right), sizeof(Right));
     }
@@ -108,16 +108,17 @@ class ArraysOf32And24 {
     size_t rightAt_;
 };
 
-/// Three arrays of 16 bytes, x and y of the left box, of the right one, z of both, and one of 8: references.
+/// Three arrays of 16 bytes (x and y of the left box, x and y of the right box, z of both), and one of 8:
+/// references.
 class ArraysOf16And8 {
   public:
-    /// Throws Error{unsupported} above 2^28 records: planes are told by 32-bit numbers.
+    /// Throws Error{unsupported} for more than 2^28 records, since planes have 32-bit numbers.
     explicit ArraysOf16And8(size_t count);
     void set(size_t i, const Node& left, const Node& right, const ChildReferences& references);
     size_t bytes() const { return behindArray(childrenAt(), children_.size() * sizeof(Children)); }
 
-    /// The ray, and the same as seen from either box: its near and far planes are told by how many floats
-    /// they lie behind the box's first.
+    /// The ray, and the same ray for each of the two boxes: its near and far planes are given by their
+    /// distance in floats from the first plane of the box.
     struct Ray {
         const PreparedRay& given;
         PreparedRay toLeft, toRight;
@@ -126,7 +127,7 @@ class ArraysOf16And8 {
         return {ray, withPlanes(ray, 2 * arrayFloats_), withPlanes(ray, arrayFloats_ + 2)};
     }
     template <class Metrics>
-    BVHIO_INLINE void tell(size_t i, Metrics& metrics) const {
+    BVHIO_INLINE void recordFetches(size_t i, Metrics& metrics) const {
         for (size_t array = 0; array < 3; ++array)
             metrics.recordFetched((array * arrayFloats_ + 4 * i) * sizeof(float), 4 * sizeof(float));
         metrics.recordFetched(childrenAt() + i * sizeof(Children), sizeof(Children));
@@ -143,7 +144,8 @@ class ArraysOf16And8 {
     };
 
     size_t childrenAt() const { return 3 * arrayFloats_ * sizeof(float); }
-    /// min.x and max.x are a box's first floats, min.y and max.y the next, min.z and max.z those from zAt on.
+    /// min.x and max.x are the first floats of a box, min.y and max.y the next, and min.z and max.z start at
+    /// zAt.
     static PreparedRay withPlanes(PreparedRay ray, size_t zAt) {
         const uint32_t min[] = {0, 2, uint32_t(zAt)};
         for (uint32_t axis = 0; axis < 3; ++axis) {
@@ -162,7 +164,7 @@ class ArraysOf16And8 {
 template <class Arrays>
 class NodesIn {
   public:
-    /// Throws Error{unsupported} where leaves are too large and too many for references.
+    /// Throws Error{unsupported} if leaves are too large and too many for references.
     explicit NodesIn(const AabbForm& form);
 
     std::span<const uint32_t> primitives() const { return primitives_; }
@@ -180,7 +182,7 @@ class NodesIn {
     SharedArray<uint32_t> primitives_;
 };
 
-/// The form's own 32-byte nodes in sibling pairs, as a kind of storage among others.
+/// The form's own 32-byte nodes in sibling pairs, as one of the kinds of storage.
 struct NodesInPairs : AabbForm {
     using AabbForm::AabbForm;
 };
@@ -190,7 +192,7 @@ using StoredNodes =
 
 using NodeStorage = Choice<StoredNodes (*)(const AabbForm&)>;
 
-/// All ways, that of the form itself first.
+/// Returns all kinds of storage; that of the form itself is the first.
 std::span<const NodeStorage> nodeStorages();
 
 }  // namespace bvhio

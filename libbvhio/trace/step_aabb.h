@@ -1,4 +1,4 @@
-// How rays step through the aabb form. Per target, like trace/traverse.h.
+// Steps rays through the aabb form. Compiled for each target, like trace/traverse.h.
 #if defined(BVHIO_TRACE_STEP_AABB_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_STEP_AABB_H
 #undef BVHIO_TRACE_STEP_AABB_H
@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
-/// What a node says of its children, copied: the node itself need not be fetched again.
+/// A copy of a node's data about its children, so that the node need not be fetched again.
 struct AabbCursor {
     uint32_t first, primitiveCount;
 
@@ -22,8 +22,8 @@ struct AabbCursor {
     }
 };
 
-/// Steps from pair to pair of 32-byte nodes. C is a cursor of any kind that begins as AabbCursor does and is
-/// set from a node and its index.
+/// Steps from pair to pair of 32-byte nodes. C is any cursor that begins like AabbCursor and has a function
+/// to set it from a node and its index.
 template <class C>
 class AabbPairs {
   public:
@@ -45,7 +45,7 @@ class AabbPairs {
         return !part.isEmpty();
     }
 
-    /// The record is both siblings: one cache line.
+    /// Both siblings are one record, which is a cache line.
     template <class Metrics>
     HWY_INLINE bool step(const Entered<C>& from, const PreparedRay& ray, float tLimit, Entered<C>& next,
                          Entered<C>*& top, Metrics& metrics) const {

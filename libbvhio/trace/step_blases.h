@@ -1,7 +1,7 @@
-// How rays step through the bottom level of the two-level form. Per target, like trace/traverse.h.
+// Steps rays through the bottom level of the two-level form. Compiled for each target, like trace/traverse.h.
 //
-// A BlasStepper steps through one tree of the level, from its root on. The root's box is stored above it,
-// in a leaf of the top level or with an instance: how the ray enters that box is its RootEntry.
+// A BlasStepper steps through one tree of the level, starting at its root. The root's box is stored above it,
+// in a leaf of the top level or with an instance. A RootEntry describes how the ray enters that box.
 #if defined(BVHIO_TRACE_STEP_BLASES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_STEP_BLASES_H
 #undef BVHIO_TRACE_STEP_BLASES_H
@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
 /// A ray that enters the box of a BLAS's root before `tLimit`. The box is given in coordinates, or by its
-/// places in a frame where it has been placed already.
+/// places if it has been placed in a frame already.
 class RootEntry {
   public:
     HWY_INLINE RootEntry(const PreparedRay& ray, const Aabb& box, float enter, float tLimit)
@@ -28,12 +28,13 @@ class RootEntry {
         : frame_(&frame), placed_(&placed), enter_(enter), tLimit_(tLimit) {}
 
     HWY_INLINE float enter() const { return enter_; }
-    /// Where the ray leaves the box.
+    /// Returns the parameter where the ray leaves the box.
     HWY_INLINE float exit() const {
         return placed_ != nullptr ? frame_->clip(*placed_, tLimit_).exit
                                   : clipToBox(*ray_, *box_, tLimit_).exit;
     }
-    /// The box as the ray sees it in `frame`, which is the frame where the box has been placed if it has.
+    /// Returns the box's places in `frame`. If the box has been placed already, `frame` must be the same
+    /// frame.
     HWY_INLINE PlacedBox place(const RayFrame& frame) const {
         return placed_ != nullptr ? *placed_ : frame.place(*box_);
     }
@@ -46,14 +47,14 @@ class RootEntry {
     float enter_, tLimit_;
 };
 
-/// Steps through the BLAS that a leaf of the top level has. Beside what a stepper offers:
+/// Steps through the BLAS of a leaf of the top level. In addition to the members of a stepper it has:
 ///
-/// - prepare: makes its Ray of a PreparedRay, given the box of the top level's root, or of the mesh.
-/// - root: where traversal starts, as the root's box is entered.
+/// - prepare: makes its Ray from a PreparedRay and the box of the top level's root, or of the mesh.
+/// - root: returns the root, where traversal starts, for a RootEntry.
 template <class Blases>
 class BlasStepper;
 
-/// The root of one tree of many, which lies behind the nodes.
+/// Fetches the root of one of many trees. Roots come after the nodes.
 template <class Links, class Metrics>
 HWY_INLINE const typename Links::Root& fetchRoot(const LinkedBlases<Links>& blases, uint32_t number,
                                                  Metrics& metrics) {
@@ -119,7 +120,7 @@ class BlasStepper<QuantizedBlases> : public Stepper<QuantizedForm> {
     uint32_t number_;
 };
 
-/// What a code takes off a box, as a step loads it.
+/// The part of a box that a code cuts off, in the layout that a step loads.
 struct alignas(16) MvhMove {
     float min[4], max[4];
 };
@@ -136,7 +137,7 @@ constexpr std::array<MvhMove, kMvhCodes> mvhMoves() {
 }
 inline constexpr std::array<MvhMove, kMvhCodes> kMvhMoves = mvhMoves();
 
-/// What all nodes of a tree have in common is here, so that a cursor has two numbers only.
+/// The data that all nodes of a tree share is here, so that a cursor needs only two numbers.
 template <>
 class BlasStepper<MvhBlases> {
   public:

@@ -1,4 +1,4 @@
-// How rays step through nodes that are stored in other ways. Per target, like trace/traverse.h.
+// Steps rays through nodes that are stored in other ways. Compiled for each target, like trace/traverse.h.
 #if defined(BVHIO_TRACE_STEP_NODE_STORAGE_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_STEP_NODE_STORAGE_H
 #undef BVHIO_TRACE_STEP_NODE_STORAGE_H
@@ -41,7 +41,7 @@ class Stepper<NodesIn<Arrays>> {
     HWY_INLINE bool step(const Entered<Cursor>& from, const std::remove_reference_t<Ray>& ray, float tLimit,
                          Entered<Cursor>& next, Entered<Cursor>*& top, Metrics& metrics) const {
         const size_t i = from.cursor;
-        arrays_.tell(i, metrics);
+        arrays_.recordFetches(i, metrics);
         metrics.boxesTested(2, kFullBoxTestCost);
         const RayInterval inLeft = arrays_.clip(i, 0, ray, tLimit);
         const RayInterval inRight = arrays_.clip(i, 1, ray, tLimit);

@@ -1,4 +1,4 @@
-// How rays step through the quantized form. Per target, like trace/traverse.h.
+// Steps rays through the quantized form. Compiled for each target, like trace/traverse.h.
 #if defined(BVHIO_TRACE_STEP_QUANTIZED_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_STEP_QUANTIZED_H
 #undef BVHIO_TRACE_STEP_QUANTIZED_H
@@ -43,8 +43,8 @@ class Stepper<QuantizedForm> {
         return !part.isEmpty();
     }
 
-    /// Per pair: 3 differences for the size of the box, 6 products and 6 sums for the new planes, 3 sums a
-    /// child for the margin.
+    /// The arithmetic per pair: 3 differences for the size of the box, 6 products and 6 sums for the new
+    /// planes, and 3 sums per child for the margin.
     template <class Metrics>
     HWY_INLINE bool step(const Entered<Cursor>& from, const RayFrame& ray, float tLimit,
                          Entered<Cursor>& next, Entered<Cursor>*& top, Metrics& metrics) const {
@@ -70,7 +70,7 @@ class Stepper<QuantizedForm> {
     }
 
   private:
-    /// The children's boxes as the ray sees them.
+    /// Places the boxes of the children.
     HWY_INLINE void placeChildren(const QuantizedRecord& record, const PlacedBox& box, PlacedBox& left,
                                   PlacedBox& right) const {
         Four mins, maxs;
@@ -79,7 +79,7 @@ class Stepper<QuantizedForm> {
         const __m128i zero = _mm_setzero_si128();
         const __m128i raw = _mm_load_si128(reinterpret_cast<const __m128i*>(&record));
         const __m128i words = _mm_unpacklo_epi8(raw, zero);
-        // Lane 3 becomes some number, times a size of 0.
+        // Lane 3 gets any number, which is multiplied by a size of 0.
         mins = Four(_mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero)));
         maxs = Four(_mm_cvtepi32_ps(_mm_unpackhi_epi16(words, zero)));
         minHead = FourInts(_mm_shuffle_epi32(raw, 0x00));

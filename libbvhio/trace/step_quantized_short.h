@@ -1,4 +1,4 @@
-// How rays step through the quantized-short form. Per target, like trace/traverse.h.
+// Steps rays through the quantized-short form. Compiled for each target, like trace/traverse.h.
 #if defined(BVHIO_TRACE_STEP_QUANTIZED_SHORT_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_STEP_QUANTIZED_SHORT_H
 #undef BVHIO_TRACE_STEP_QUANTIZED_SHORT_H
@@ -38,7 +38,7 @@ class Stepper<QuantizedShortForm> {
         return !part.isEmpty();
     }
 
-    /// The arithmetic is the quantized form's.
+    /// The arithmetic is that of the quantized form.
     template <class Metrics>
     HWY_INLINE bool step(const Entered<Cursor>& from, const RayFrame& ray, float tLimit,
                          Entered<Cursor>& next, Entered<Cursor>*& top, Metrics& metrics) const {
@@ -66,7 +66,7 @@ class Stepper<QuantizedShortForm> {
         const uint32_t first = form_.firstEntryOf(cursor.firstEntry, cursor.reference);
         return {first, form_.countFrom(first)};
     }
-    /// Reports the words of the bitmap, which lies behind the slots.
+    /// Does the same, and reports the words of the bitmap, which comes after the slots.
     template <class Metrics>
     HWY_INLINE PrimitiveRange primitiveRange(const Cursor& cursor, Metrics& metrics) const {
         const PrimitiveRange range = primitiveRange(cursor);
@@ -84,7 +84,7 @@ class Stepper<QuantizedShortForm> {
         return slots_ + slot;
     }
 
-    /// The children's boxes as the ray sees them. Insets become fractions where they lie in their word: a
+    /// Places the boxes of the children. Insets become fractions without being shifted in their word: a
     /// number n 2^k is exact, and so is its product with 2^-(6 + k).
     HWY_INLINE void placeChildren(const ShortRecord& record, const PlacedBox& box, PlacedBox& left,
                                   PlacedBox& right) const {

@@ -1,4 +1,4 @@
-// How rays step through the ssh form. Per target, like trace/traverse.h.
+// Steps rays through the ssh form. Compiled for each target, like trace/traverse.h.
 #if defined(BVHIO_TRACE_STEP_SSH_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_STEP_SSH_H
 #undef BVHIO_TRACE_STEP_SSH_H
@@ -12,11 +12,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
-/// A ray with what its planes need, by side.
+/// A ray, with the numbers that each side's planes need.
 struct SshRay {
     const PreparedRay& ray;
     float origin[8], reciprocal[8];
-    uint32_t nearMask[8];  // all ones where the ray enters through that side
+    uint32_t nearMask[8];  // all ones if the ray enters through that side
 
     explicit SshRay(const PreparedRay& prepared) : ray(prepared) {
         for (uint32_t side = 0; side < 6; ++side) {
@@ -34,12 +34,12 @@ class Stepper<SshForm> {
   public:
     using Ray = SshRay;
     static constexpr int kMaxPushed = 1;
-    /// Per box: one difference and one product; one minimum or maximum, one comparison.
+    /// The cost per box: one difference and one product; one minimum or maximum, and one comparison.
     static constexpr BoxTestCost kBoxTestCost{2, 2};
 
     struct Cursor {
         uint32_t word;  // of the node
-        float exit;     // where the ray leaves the node's box
+        float exit;     // the parameter where the ray leaves the node's box
     };
 
     explicit Stepper(const SshForm& form) : form_(form), nodes_(form.nodes().data()) {}
@@ -56,8 +56,8 @@ class Stepper<SshForm> {
         return !part.isEmpty();
     }
 
-    /// Every plane met on the way down is clipped by the arithmetic of clipToPlanes, so the interval is what
-    /// that finds for the box that all of them bound.
+    /// Each plane on the way down is clipped by the arithmetic of clipToPlanes. So the interval is the one
+    /// that clipToPlanes finds for the box of all these planes.
     template <class Metrics>
     HWY_INLINE bool step(const Entered<Cursor>& from, const SshRay& ray, float tLimit, Entered<Cursor>& next,
                          Entered<Cursor>*& top, Metrics& metrics) const {
@@ -67,8 +67,8 @@ class Stepper<SshForm> {
         metrics.boxesTested(2, kBoxTestCost);
         const SshNode* pair = nodes_ + left;
         const float exit = from.cursor.exit < tLimit ? from.cursor.exit : tLimit;
-        // The nearer child by the direction along the axis that separates them.
-        const uint32_t nearSide = ray.nearMask[node.splitAxis()] + 1;  // 0 when the ray goes up the axis
+        // The direction along the axis that separates the children gives the nearer child.
+        const uint32_t nearSide = ray.nearMask[node.splitAxis()] + 1;  // 0 if the ray goes up the axis
         Entered<Cursor> nearer, farther;
         const bool entersNearer = clip(ray, pair[nearSide], from.enter, exit, nearer);
         const bool entersFarther = clip(ray, pair[nearSide ^ 1], from.enter, exit, farther);
@@ -95,7 +95,8 @@ class Stepper<SshForm> {
                                 Entered<Cursor>& child) {
         const uint32_t side = node.side();
 #if defined(__SSE__)
-        // As in clipToPlanes; whether the plane is where the ray enters is anyone's guess, so no branch.
+        // As in clipToPlanes, but without a branch: whether the ray enters through the plane cannot be
+        // predicted.
         const __m128 t = _mm_mul_ss(_mm_sub_ss(_mm_load_ss(&node.plane), _mm_load_ss(ray.origin + side)),
                                     _mm_load_ss(ray.reciprocal + side));
         const __m128 isNear = _mm_load_ss(reinterpret_cast<const float*>(ray.nearMask + side));

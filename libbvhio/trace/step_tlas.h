@@ -1,4 +1,4 @@
-// How rays step through the top level of the two-level form. Per target, like trace/traverse.h.
+// Steps rays through the top level of the two-level form. Compiled for each target, like trace/traverse.h.
 #if defined(BVHIO_TRACE_STEP_TLAS_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_STEP_TLAS_H
 #undef BVHIO_TRACE_STEP_TLAS_H
@@ -14,11 +14,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
-/// A stepper that also says how the ray enters a leaf's box, which is that of a BLAS's root: `entry`.
+/// A stepper with a function `entry`, which returns how the ray enters a leaf's box, the box of a BLAS's
+/// root.
 template <class Tlas>
 class TlasStepper;
 
-/// Remembers the node, since BLASes ask for its box.
+/// A cursor that also has the node's index, since BLASes need the node's box.
 struct AabbTlasCursor {
     uint32_t first, primitiveCount, node;
 

@@ -1,9 +1,10 @@
-// Traversal of the two-level form: the one loop twice. A leaf of the top level is a root of the bottom level,
-// from which the same loop goes on. The order in which nodes are met is that of one stack, since what was
-// pushed earlier waits until a subtree is done. Per target, like trace/traverse.h.
+// Traversal of the two-level form, with the same loop on both levels. A leaf of the top level is a root of
+// the bottom level, from which the loop continues. Nodes are visited in the same order as with one stack,
+// since entries that were pushed earlier wait until a subtree is done. Compiled for each target, like
+// trace/traverse.h.
 //
-// The loops of the levels are compiled apart and call each other: there is one for each form of a level,
-// not one for each pair of forms.
+// The loops of the levels are compiled separately and call each other. So there is a loop for each form of a
+// level, and not for each pair of forms.
 #if defined(BVHIO_TRACE_STEP_TWO_LEVEL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_STEP_TWO_LEVEL_H
 #undef BVHIO_TRACE_STEP_TWO_LEVEL_H
@@ -20,13 +21,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
-/// What a ray does in the leaves of a top level: `visit(context, leaf, entry)` is called for each that is
-/// entered and returns true when the query is done.
+/// The visitor of a top level's leaves: `visit(context, leaf, entry)` is called for each leaf that is
+/// entered. It returns whether the query is done.
 struct LeafVisitor {
     const void* context;
     bool (*visit)(const void* context, PrimitiveRange leaf, const RootEntry& entry);
 
-    /// Calls context(leaf, entry).
+    /// Returns a visitor that calls context(leaf, entry).
     template <class Context>
     static LeafVisitor of(const Context& context) {
         return {&context, [](const void* self, PrimitiveRange leaf, const RootEntry& entry)
@@ -46,8 +47,8 @@ HWY_NOINLINE void traverseTlas(const TlasStepper<Tlas>& tlas,
     traverseFrom(tlas, root, ray, query, metrics, visitLeaf);
 }
 
-/// Walks through BLASes with a ray that is prepared for them. A query of a tree that is not an instance is
-/// asked as from within one, so that both share their loops.
+/// Walks through BLASes with a ray that is prepared for them. The query is always an InstanceQuery, also for
+/// trees that are not instances, so that both share their loops.
 template <class Blases, class Source, class Query, class Metrics>
 HWY_NOINLINE bool traverseBlas(const Blases& blases, PrimitiveRange leaf, const RootEntry& entry,
                                const typename BlasStepper<Blases>::Ray& blasRay, const Source& source,
@@ -59,7 +60,7 @@ HWY_NOINLINE bool traverseBlas(const Blases& blases, PrimitiveRange leaf, const 
         TestTriangles<Tree, Source, InstanceQuery<Query>, Metrics>{tree, source, ray, query, metrics});
 }
 
-/// One tree over one mesh's primitives, in two levels.
+/// Traverses a tree over the primitives of a plain scene, in two levels.
 template <class Tlas, class Blases, class Source, class Query, class Metrics>
 HWY_INLINE void traverseLevels(const Tlas& tlas, const Blases& blases, const Source& source,
                                const PreparedRay& ray, Query& query, Metrics& metrics) {
@@ -82,7 +83,7 @@ HWY_INLINE void traverseLevels(const Tlas& tlas, const Blases& blases, const Sou
         below(BlasStepper<Blases>::prepare(ray, tlas.bounds()));
 }
 
-/// Walks through the BLAS of an instance with the ray in its space. The definition of a hit is in
+/// Walks through the BLAS of an instance with the ray in the instance's space. Hits are defined in
 /// scene/instance.h.
 template <class Blases, class Source, class Query, class Metrics>
 HWY_NOINLINE bool traverseInstance(uint32_t number, const Blases& blases, const PlacedBlases& placed,
@@ -115,7 +116,7 @@ HWY_NOINLINE bool traverseInstance(uint32_t number, const Blases& blases, const 
                         source.of(local), local, within, metrics);
 }
 
-/// A top level over instances.
+/// Traverses a top level over instances.
 template <class Tlas, class Source, class Query, class Metrics>
 HWY_INLINE void traverseInstances(const Tlas& tlas, const TwoLevelForm& form, const Source& source,
                                   const PreparedRay& ray, Query& query, Metrics& metrics) {

@@ -1,6 +1,6 @@
-// What a form must bring to be traced: how a ray steps through its nodes as they are stored.
+// The interface that a form needs to be traced: steps of a ray through its nodes as they are stored.
 //
-// Each form has a Stepper in trace/step_FORM.h. Like the traversal loop (trace/traverse.h) steppers are
+// Each form has a Stepper in trace/step_FORM.h. Steppers, like the traversal loop (trace/traverse.h), are
 // compiled once for each kind of processor.
 #if defined(BVHIO_TRACE_STEPPER_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_STEPPER_H
@@ -19,35 +19,35 @@
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
-/// A node that a ray enters, as the stack of a traversal remembers it.
+/// A node that a ray enters, as an entry of a traversal's stack.
 template <class Cursor>
 struct Entered {
-    Cursor cursor;  // what the stepper needs to go on from this node
+    Cursor cursor;  // the data with which the stepper continues from this node
     float enter;    // the ray's parameter where it enters the node's box
 };
 
-/// Steps through the nodes of the tree that a form stores. It is cheap to make, and refers to the form.
-/// Specialised in trace/step_FORM.h.
+/// Steps through the nodes of the tree that a form stores. It is cheap to make, and refers to the form. The
+/// specialisations are in trace/step_FORM.h.
 template <class Form>
 class Stepper;
 
-/// Nodes that a ray steps through. Traversal (trace/traverse.h) owns the stack and the culling. A stepper
-/// owns its Cursor (an index; an index and a decoded box; an index and ray parameters) and:
+/// Nodes that a ray steps through. Traversal (trace/traverse.h) is responsible for the stack and for culling.
+/// A stepper defines its Cursor (an index; an index and a decoded box; an index and ray parameters) and:
 ///
-/// - Ray: what it makes of a PreparedRay once before the traversal; a reference to that where nothing.
-/// - kMaxPushed: how many entries a step may push.
-/// - step: from an inner node as it was entered, tests the boxes of the children. Writes the nearest child
-///   that is entered to `next`, and pushes the others to `top`, the farthest first; of equally near ones
-///   the first as stored is the nearest. Returns false, and pushes nothing, when no child is entered.
-///   `next` is not `from`. A child is entered when its part of the ray, cut off at `tLimit`, is not empty.
-///   The contract that makes hits the same for every form: enter a child whenever `clipToBox` accepts any
-///   box inside the child's stored box, at this tLimit, and let `enter` not exceed the `enter` that it
+/// - Ray: the type that it makes from a PreparedRay before the traversal, or a reference to a PreparedRay.
+/// - kMaxPushed: the most entries that a step pushes.
+/// - step: tests the boxes of the children of an inner node that was entered. Writes the nearest entered
+///   child to `next`, and pushes the others to `top`, the farthest first. Of equally near children, the one
+///   that is stored first counts as the nearest. Returns false, and pushes nothing, if no child is entered.
+///   `next` is not `from`. A child is entered if its part of the ray, cut off at `tLimit`, is not empty. The
+///   contract that makes hits the same for every form: enter a child whenever `clipToBox` accepts any box
+///   inside the child's stored box, at this tLimit, and let `enter` not exceed the `enter` that `clipToBox`
 ///   finds for that box.
-/// - isLeaf, primitiveRange: of a cursor; leaves are entered, never stepped from.
-///   A stepper that reads for the range what its cursor does not hold has another primitiveRange, which takes
-///   the metrics too.
+/// - isLeaf, primitiveRange: of a cursor. Leaves are entered, but never stepped from. If a stepper reads data
+///   for the range that its cursor does not have, it has another primitiveRange, which also takes the
+///   metrics.
 ///
-/// Each record fetched, of whatever kind, each box tested and each entry pushed is reported to the metrics.
+/// Every fetched record of any kind, every tested box and every pushed entry is reported to the metrics.
 template <class S>
 concept SteppableNodes = requires(const S stepper, const typename S::Cursor cursor, const typename S::Ray ray,
                                   float tLimit, const Entered<typename S::Cursor> from,
@@ -59,10 +59,10 @@ concept SteppableNodes = requires(const S stepper, const typename S::Cursor curs
     { stepper.primitiveRange(cursor) } -> std::same_as<PrimitiveRange>;
 };
 
-/// Nodes that all lie below one root:
+/// Nodes that are all below one root:
 ///
-/// - prepare: makes its Ray of a PreparedRay.
-/// - enterRoot: tests the root's box; false when the ray misses it. Else `root` is where traversal starts.
+/// - prepare: makes its Ray from a PreparedRay.
+/// - enterRoot: tests the root's box. Returns false if the ray misses it. If not, traversal starts at `root`.
 template <class S>
 concept SteppableTree = SteppableNodes<S> &&
     requires(const S stepper, const PreparedRay given, const typename S::Ray ray, float tLimit,

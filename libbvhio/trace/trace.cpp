@@ -6,10 +6,10 @@
 namespace bvhio {
 namespace {
 
-// Rays that one task traces: enough to make starting it cheap, few enough to share out.
+// The rays of one task: enough that starting it costs little, and few enough to share the work.
 constexpr size_t kRaysPerTask = 1024;
 
-/// Tests the triangles of a range; true when the query is done.
+/// Tests the triangles of a range. Returns whether the query is done.
 template <class Query>
 bool testEach(const Scene& scene, const PreparedRay& ray, PrimitiveRange range, Query& query) {
     for (uint32_t i = range.first; i < range.first + range.count; ++i) {

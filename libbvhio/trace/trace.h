@@ -1,4 +1,4 @@
-// Rays through an encoded BVH, in batches.
+// Traces batches of rays through an encoded BVH.
 #pragma once
 
 #include <cstdint>
@@ -12,42 +12,42 @@
 
 namespace bvhio {
 
-/// Where leaves find their triangles. The hits are the same.
+/// The source of a leaf's triangles. The hits are the same.
 enum class TriangleSource {
-    indexed,  // in the scene, through its indices: nothing to prepare, the way to the first ray after opening
-              // a file
-    blocks,   // in a copy made for tracing: about twice as fast, at 48 bytes for each triangle
+    indexed,  // the scene, through its indices, without preparation: the fastest way to the first ray after
+              // opening a file
+    blocks,   // a copy made for tracing: about twice as fast, with 48 bytes for each triangle
 };
 
-/// Traces batches of rays, on all threads that the caller's ThreadLimit leaves. Hits do not depend on the
+/// Traces batches of rays, on all threads that the caller's ThreadLimit allows. Hits do not depend on the
 /// number of threads, the processor, the form, the tree, or the source of triangles: they are those of brute
-/// force over all triangles (core/intersect.h has the proof). Refers to the scene and the BVH, which must
-/// outlive it.
+/// force over all triangles (see core/intersect.h for the proof). Refers to the scene and the BVH, which must
+/// outlive the tracer.
 class Tracer {
   public:
     Tracer(const Scene& scene, const EncodedBvh& bvh, TriangleSource source = TriangleSource::blocks);
 
-    /// Nodes of the aabb form stored in another way, and traced in triangle blocks by code for the most basic
-    /// processor: times compare with each other, not with those of other tracers. Throws Error{usage} for
-    /// other forms, Error{unsupported} where leaves are too large.
+    /// Stores the nodes of the aabb form in another way. They are traced in triangle blocks by code for the
+    /// most basic processor, so times can be compared with each other, but not with those of other tracers.
+    /// Throws Error{usage} for other forms, and Error{unsupported} if leaves are too large.
     Tracer(const Scene& scene, const EncodedBvh& bvh, const NodeStorage& storage);
 
-    /// The closest hit of each ray; among equal t the lowest primitive index. Sizes must be equal.
+    /// Finds the closest hit of each ray; among equal t, the lowest primitive index. Sizes must be equal.
     void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const;
 
-    /// For each ray 1 when it hits anything, else 0. Sizes must be equal.
+    /// Writes for each ray 1 if it hits anything, and else 0. Sizes must be equal.
     void anyHits(std::span<const Ray> rays, std::span<uint8_t> occluded) const;
 
-    /// Runs the queries once more, slower, and counts what they cost; times are measured without this.
-    /// `perRay`, when not empty, has one element for each ray. Listeners hear of all fetches, ray after ray,
-    /// on one thread.
+    /// Runs the queries again, more slowly, and counts their costs; times are measured without this. `perRay`
+    /// is empty, or has an element for each ray. All fetches are reported to listeners, ray after ray, on one
+    /// thread.
     TraceMeasurement measure(std::span<const Ray> rays, Query query, std::span<RayCounts> perRay = {},
                              std::span<FetchListener* const> listeners = {}) const;
 
-    /// Of the arrays whose fetches listeners hear of.
+    /// Returns the sizes of the arrays whose fetches are reported to listeners.
     FetchedArraySizes arraySizes() const;
 
-    /// Bytes of the copy of the triangles; 0 without one.
+    /// Returns the bytes of the copy of the triangles; 0 if there is none.
     size_t preparedBytes() const { return blocks_ ? blocks_->bytes() : 0; }
 
   private:
@@ -57,7 +57,7 @@ class Tracer {
     std::optional<StoredNodes> stored_;
 };
 
-/// What every tree must give, found by testing every triangle.
+/// Find the hits that every tree must find, by testing every triangle.
 Hit bruteForceClosestHit(const Scene& scene, const Ray& ray);
 bool bruteForceAnyHit(const Scene& scene, const Ray& ray);
 

@@ -1,4 +1,4 @@
-// What tracing must compile for each form: declared here, made by CMake from trace/trace_form.cpp.in.
+// The functions that tracing compiles for each form, by files that CMake makes from trace/trace_form.cpp.in.
 #pragma once
 
 #include <span>
@@ -11,19 +11,19 @@
 
 namespace bvhio {
 
-/// What is asked of rays.
+/// The kinds of queries.
 enum class Query { closest, any };
 
-/// What a run with counting found.
+/// The counts of a run.
 struct TraceMeasurement {
     TraversalCounts counts;
     LocalityCounts locality;
 };
 
-/// Trace rays through a form on this thread. Each function is specialised for each form, in a unit of its
-/// own.
+/// These functions trace rays through a form on this thread. Each function is specialised for each form, in a
+/// file of its own.
 
-/// In triangle blocks, by code for the processor at hand.
+/// These trace in triangle blocks, by code for the current processor.
 template <class Form>
 void closestHitsInBlocks(const Form& form, const TriangleBlocks& blocks, std::span<const Ray> rays,
                          std::span<Hit> hits);
@@ -31,14 +31,14 @@ template <class Form>
 void anyHitsInBlocks(const Form& form, const TriangleBlocks& blocks, std::span<const Ray> rays,
                      std::span<uint8_t> occluded);
 
-/// In the scene's own triangles.
+/// These trace in the scene's own triangles.
 template <class Form>
 void closestHitsIndexed(const Form& form, const Scene& scene, std::span<const Ray> rays, std::span<Hit> hits);
 template <class Form>
 void anyHitsIndexed(const Form& form, const Scene& scene, std::span<const Ray> rays,
                     std::span<uint8_t> occluded);
 
-/// As Tracer::measure does, on all threads.
+/// Does the work of Tracer::measure, on all threads.
 template <class Form>
 TraceMeasurement measureForm(const Form& form, const Scene& scene, std::span<const Ray> rays, Query query,
                              std::span<RayCounts> perRay, std::span<FetchListener* const> listeners);

@@ -1,6 +1,6 @@
-// Tracing of one form, BVHIO_TRACED_FORM, whose Stepper is in BVHIO_STEP_HEADER. The timed loops are
-// compiled for each kind of processor, and the best is chosen at run time. Included by foreach_target.h
-// several times, so it has no guard. trace/trace_form.cpp.in shows how.
+// Traces one form, BVHIO_TRACED_FORM, whose Stepper is in BVHIO_STEP_HEADER. The timed loops are compiled for
+// each kind of processor, and the best one is chosen at run time. foreach_target.h includes this file several
+// times, so it has no guard. trace/trace_form.cpp.in shows how.
 #include <hwy/highway.h>
 
 #include BVHIO_STEP_HEADER

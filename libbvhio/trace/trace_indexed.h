@@ -1,5 +1,5 @@
-// Traces rays in the scene's own triangles, with or without counting. Per target, like trace/traverse.h,
-// though one is enough: where speed counts, rays are traced in triangle blocks.
+// Traces rays in the scene's own triangles, with or without counting. Written for each target, like
+// trace/traverse.h, but compiled for one: where speed matters, rays are traced in triangle blocks.
 #if defined(BVHIO_TRACE_TRACE_INDEXED_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_TRACE_INDEXED_H
 #undef BVHIO_TRACE_TRACE_INDEXED_H
@@ -48,8 +48,8 @@ TraceMeasurement measureAll(const Form& form, const Scene& scene, std::span<cons
     TraversalCounts sums;
     LocalityMetrics allLocality(form.nodeBytes());
     std::mutex mutex;
-    // Large tasks: each has its own map of the blocks that were touched. Listeners hear one ray after the
-    // other.
+    // Tasks are large, because each has its own map of touched blocks. Fetches are reported to listeners one
+    // ray after another.
     const size_t raysPerTask = listeners.empty() ? 16384 : std::max(rays.size(), size_t(1));
     parallelChunks(rays.size(), raysPerTask, [&](size_t begin, size_t end) {
         CountMetrics counts;

@@ -1,5 +1,5 @@
-// Traces nodes that are stored in other ways. Compiled once, for every processor: what is compared are
-// these with each other.
+// Traces nodes that are stored in other ways. Compiled once, for every processor, since these are only
+// compared with each other.
 #include "trace/step_node_storage.h"
 #include "trace/trace_form.h"
 #include "trace/trace_indexed.h"

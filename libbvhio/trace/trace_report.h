@@ -1,4 +1,4 @@
-// The numbers of a counted run as JSON.
+// Reports the counts of a run as JSON.
 #pragma once
 
 #include "core/report.h"
@@ -7,7 +7,7 @@
 namespace bvhio {
 
 /// Adds the keys NC LC TC AOC AOC_arithmetic AOC_comparisons BLB LCV records SOC SBL LJC{T} CMC{T} WSS{T}, as
-/// metrics/metrics.h and metrics/locality.h define them: per ray where they say so.
+/// defined in metrics/metrics.h and metrics/locality.h.
 void addTo(Report& report, const TraceMeasurement& measurement);
 
 }  // namespace bvhio

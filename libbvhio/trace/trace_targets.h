@@ -1,5 +1,6 @@
-// The kinds of processor that the timed loops are compiled for, included before anything of Highway: they use
-// four lanes, with which AVX-512 was no faster than AVX2, and each more takes its time to compile.
+// The kinds of processor for which the timed loops are compiled. Must be included before Highway. The loops
+// use four lanes, with which AVX-512 was not faster than AVX2, and each additional kind takes time to
+// compile.
 #pragma once
 
 #ifndef HWY_DISABLED_TARGETS

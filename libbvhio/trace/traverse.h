@@ -1,13 +1,13 @@
-// The traversal loop: one for every form, source of triangles, query and metrics policy.
+// The traversal loop. There is one loop for all forms, sources of triangles, queries and metrics policies.
 //
 // It is compiled several times, once for each kind of processor (Highway's per-target inclusion, see
-// trace/trace_form_simd.h). So it lives in Highway's namespace for the target and has an include guard that
-// toggles, and so do all headers that it is made of.
+// trace/trace_form_simd.h). So it is in Highway's namespace for the target and has an include guard that
+// toggles, like all headers that it uses.
 //
 // A source tests the triangles of a leaf: `source.test(range, ray, query)` offers hits to the query and
-// returns true when the query is done. IndexedTriangles reads them from the scene, and needs no preparation;
-// trace/triangle_blocks_simd.h has a faster one. A query (trace/queries.h) says how far the ray still
-// reaches.
+// returns whether the query is done. IndexedTriangles reads triangles from the scene, and needs no
+// preparation. trace/triangle_blocks_simd.h has a faster source. A query (trace/queries.h) knows how far the
+// ray still reaches.
 #if defined(BVHIO_TRACE_TRAVERSE_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_TRAVERSE_H
 #undef BVHIO_TRACE_TRAVERSE_H
@@ -24,12 +24,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
-/// Triangles straight from the scene.
+/// The triangles of the scene itself.
 struct IndexedTriangles {
     const Scene& scene;
     std::span<const uint32_t> primitives;
 
-    /// The same triangles, for another ray.
+    /// Returns the same triangles for another ray.
     HWY_INLINE IndexedTriangles of(const PreparedRay&) const { return *this; }
 
     template <class Query>
@@ -44,8 +44,8 @@ struct IndexedTriangles {
     }
 };
 
-/// Goes on from `current`, a node that a ray entered, to the nearest leaf below it, which then is `current`.
-/// Returns false where a node is met of which no child is entered.
+/// Steps from `current`, a node that a ray entered, to the nearest leaf below it, and sets `current` to this
+/// leaf. Returns false if it reaches a node of which no child is entered.
 template <SteppableNodes S, class Metrics>
 HWY_INLINE bool descend(const S& stepper, const typename S::Ray& ray, float tLimit,
                         Entered<typename S::Cursor>& current, Entered<typename S::Cursor>*& top,
@@ -58,9 +58,9 @@ HWY_INLINE bool descend(const S& stepper, const typename S::Ray& ray, float tLim
     return true;
 }
 
-/// Walks a ray on from a node that it entered, down to the leaves: `visitLeaf(entered)` is called for each
-/// and returns true when the query is done, as this does then. Nearer children come first; the others wait on
-/// the stack and are dropped when a hit nearer than their boxes was found meanwhile.
+/// Walks a ray from a node that it entered down to the leaves, and calls `visitLeaf(entered)` for each leaf,
+/// which returns whether the query is done. Returns true as soon as it is. Nearer children come first. The
+/// others wait on the stack, and are dropped if a hit nearer than their boxes was found meanwhile.
 template <SteppableNodes S, class Query, class Metrics, class VisitLeaf>
 HWY_INLINE bool traverseFrom(const S& stepper, Entered<typename S::Cursor> current,
                              const typename S::Ray& ray, Query& query, Metrics& metrics,
@@ -78,7 +78,7 @@ HWY_INLINE bool traverseFrom(const S& stepper, Entered<typename S::Cursor> curre
     }
 }
 
-/// Visits leaves of triangles.
+/// Visits leaves by testing their triangles.
 template <class S, class Source, class Query, class Metrics>
 struct TestTriangles {
     const S& stepper;

@@ -15,7 +15,7 @@
 namespace bvhio {
 namespace {
 
-/// What this thread has worked, in seconds.
+/// Returns the processor time of this thread in seconds.
 double threadSeconds() {
     timespec time;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -45,10 +45,10 @@ struct Times {
     double slowdown() const { return reference > 0 ? candidate / reference : 1; }
 };
 
-/// From this slowdown on one round will do: noise is small beside it, and time long.
+/// From this slowdown on, one round is enough: noise is comparatively small, and a round takes long.
 constexpr double kManyTimes = 8;
 
-/// Times both in turn on one thread.
+/// Times both in alternation on one thread.
 Times timeBoth(const Contestant& reference, const Contestant& candidate, std::span<const Ray> rays,
                uint32_t rounds) {
     const ThreadLimit oneThread(1);
@@ -99,7 +99,7 @@ class Tuner {
         const Times diffuse = timeBoth(aabb_, *made, diffuse_, options_.rounds);
         const double seconds = primary.candidate + diffuse.candidate;
         row.mraysPerSecond = seconds > 0 ? double(counts.rays) / seconds / 1e6 : 0;
-        if (candidate.form == AabbForm::kName) return row;  // the measure itself
+        if (candidate.form == AabbForm::kName) return row;  // the reference itself
         row.slowdownPrimary = primary.slowdown();
         row.slowdownDiffuse = diffuse_.empty() ? row.slowdownPrimary : diffuse.slowdown();
         row.slowdown = std::sqrt(row.slowdownPrimary * row.slowdownDiffuse);
@@ -114,7 +114,7 @@ class Tuner {
     std::vector<Ray> primary_, diffuse_;
 };
 
-/// The least of the rows that qualify.
+/// Returns the least of the rows that qualify.
 template <class Qualifies, class Less>
 const TunedEncoding* least(std::span<const TunedEncoding> rows, const Qualifies& qualifies,
                            const Less& less) {
@@ -124,7 +124,7 @@ const TunedEncoding* least(std::span<const TunedEncoding> rows, const Qualifies&
     return best;
 }
 
-/// For texts of our own making, which may have commas and quotes in them.
+/// Quotes a text, which may contain commas and quotes, for CSV.
 std::string quoted(const std::string& text) {
     std::string result = "\"";
     for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);

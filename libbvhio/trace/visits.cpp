@@ -9,7 +9,7 @@
 namespace bvhio {
 namespace {
 
-// Each task has counts of its own.
+// The rays of a task. Tasks are large, because each has its own counts.
 constexpr size_t kRaysPerCount = 65536;
 
 /// The metrics policy that counts fetches of each record.

@@ -3,8 +3,8 @@
 
 Usage: before_after.py [SCENE] -o PICTURE.png [--resolution WxH] [--scale N]
 
-On the left is the tree of the median builder; on the right that of bvh-build's defaults after bvh-restructure. Also prints both trees'
-costs as a table in Markdown, for the primary rays of the picture. Needs the tools on PATH, and nothing besides Python's own library.
+On the left is the tree of the median builder, on the right that of bvh-build's defaults after bvh-restructure. Also prints a table in
+Markdown: the costs of both trees, and of bvh-build's default tree, for primary and diffuse rays. The tools must be on PATH.
 """
 import argparse
 import json
@@ -83,11 +83,12 @@ def main():
         run("bvh-build", options.scene, "-o", built)
         run("bvh-restructure", built, "-o", after)
 
-        picture, reports = os.path.join(work, "picture.png"), []
+        def trace(tree, *more):
+            return json.loads(run("bvh-trace", tree, "--repeat", 1, "--format", "json", *more))
 
         def heat_map(tree, size):
-            reports.append(json.loads(run("bvh-trace", tree, "--resolution", size, "--heatmap", picture, "--heatmap-scale",
-                                          options.scale, "--repeat", 1, "--format", "json")))
+            picture = os.path.join(work, "picture.png")
+            trace(tree, "--resolution", size, "--heatmap", picture, "--heatmap-scale", options.scale)
             return read_png(picture)
 
         left, right = heat_map(before, options.resolution), heat_map(after, options.resolution)
@@ -95,12 +96,16 @@ def main():
         legend = heat_map(after, f"{2 * width + GAP}x1")[1:]
         write_png(options.output, [a + GAP * PAPER + b for a, b in zip(left[:height], right[:height])] + legend)
 
-        costs = [json.loads(run("bvh-stats", tree, "--no-epo", "--format", "json"))["sah_cost"] for tree in (before, after)]
-    rows = [("SAH cost", costs), ("boxes tested per ray", [report["NC"] for report in reports]),
-            ("triangles tested per ray", [report["TC"] for report in reports])]
-    print("| | median split | binned SAH + reinsertion |\n|---|---|---|")
+        trees = (before, built, after)
+        costs = [json.loads(run("bvh-stats", tree, "--no-epo", "--format", "json"))["sah_cost"] for tree in trees]
+        rows = [("SAH cost", costs)]
+        for rays in ("primary", "diffuse"):
+            reports = [trace(tree, "--rays", rays, "--resolution", options.resolution) for tree in trees]
+            rows.append((f"boxes tested per {rays} ray", [report["NC"] for report in reports]))
+            rows.append((f"triangles tested per {rays} ray", [report["TC"] for report in reports]))
+    print("| | median split | binned SAH | binned SAH + reinsertion |\n|---|---|---|---|")
     for name, values in rows:
-        print(f"| {name} | {values[0]:.1f} | {values[1]:.1f} |")
+        print(f"| {name} | " + " | ".join(f"{value:.1f}" for value in values) + " |")
 
 
 if __name__ == "__main__":

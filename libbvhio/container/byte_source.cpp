@@ -47,21 +47,25 @@ class MemorySource : public ByteSource {
     std::span<const std::byte> bytes_;
 };
 
-/// A mapped file. The mapping lives as long as any array that views it.
-class MappedSource : public ByteSource {
+/// Whoever owns the memory, a mapping for instance, lives as long as any array that views it. Without an
+/// owner the caller keeps it.
+class ViewedSource : public ByteSource {
   public:
-    MappedSource(std::shared_ptr<const void> mapping, std::span<const std::byte> bytes,
-                 const std::string& name)
-        : ByteSource(name), mapping_(std::move(mapping)), bytes_(bytes) {}
+    ViewedSource(std::shared_ptr<const void> owner, std::span<const std::byte> bytes, const std::string& name)
+        : ByteSource(name), owner_(std::move(owner)), bytes_(bytes) {}
 
   private:
     Bytes takeNext(uint64_t count) override {
         const auto part = bytes_.first(size_t(std::min<uint64_t>(count, bytes_.size())));
         bytes_ = bytes_.subspan(part.size());
-        return {mapping_, part};
+        // Arrays are read as they lie: nodes want their cache lines.
+        if (reinterpret_cast<uintptr_t>(part.data()) % kAlignment != position() % kAlignment)
+            return AlignedVector<std::byte>(part.begin(), part.end());
+        return {owner_, part};
     }
 
-    std::shared_ptr<const void> mapping_;
+    static constexpr size_t kAlignment = 64;
+    std::shared_ptr<const void> owner_;
     std::span<const std::byte> bytes_;
 };
 
@@ -94,24 +98,60 @@ class StreamSource : public ByteSource {
     int descriptor_;
 };
 
+Descriptor openToRead(const std::filesystem::path& path) {
+    Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (descriptor.get() < 0) failIo(path.string(), "open");
+    return descriptor;
+}
+
+/// The size in bytes; 0 for what is not a regular file.
+uint64_t regularSize(const Descriptor& descriptor, const std::string& name) {
+    struct stat status {};
+    if (::fstat(descriptor.get(), &status) != 0) failIo(name, "stat");
+    return S_ISREG(status.st_mode) ? uint64_t(status.st_size) : 0;
+}
+
+/// Maps a range of the file, which is not empty; nullptr where the system cannot. Maps start with a page, so
+/// that of the range may start before it.
+std::unique_ptr<ByteSource> mapRange(const Descriptor& descriptor, uint64_t offset, uint64_t length,
+                                     const std::string& name) {
+    const auto page = uint64_t(::sysconf(_SC_PAGESIZE));
+    const auto before = size_t(offset % page);
+    const size_t mapped = size_t(length) + before;
+    void* data = ::mmap(nullptr, mapped, PROT_READ, MAP_PRIVATE, descriptor.get(), off_t(offset - before));
+    if (data == MAP_FAILED) return nullptr;
+    std::shared_ptr<const void> mapping(data, [mapped](void* p) { ::munmap(p, mapped); });
+    const std::span bytes(static_cast<const std::byte*>(data) + before, size_t(length));
+    return std::make_unique<ViewedSource>(std::move(mapping), bytes, name);
+}
+
 }  // namespace
 
 std::unique_ptr<ByteSource> openSource(const std::filesystem::path& path) {
     if (path == "-") return streamSource(STDIN_FILENO, "standard input");
     const std::string name = path.string();
-    Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (descriptor.get() < 0) failIo(name, "open");
-    struct stat status {};
-    if (::fstat(descriptor.get(), &status) != 0) failIo(name, "stat");
-    if (!S_ISREG(status.st_mode) || status.st_size == 0)
-        return std::make_unique<StreamSource>(std::move(descriptor), name);
+    Descriptor descriptor = openToRead(path);
+    const uint64_t size = regularSize(descriptor, name);
+    if (size > 0)
+        if (auto mapped = mapRange(descriptor, 0, size, name)) return mapped;
+    return std::make_unique<StreamSource>(std::move(descriptor), name);
+}
 
-    const auto size = size_t(status.st_size);
-    void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor.get(), 0);
-    if (data == MAP_FAILED) return std::make_unique<StreamSource>(std::move(descriptor), name);
-    std::shared_ptr<const void> mapping(data, [size](void* p) { ::munmap(p, size); });
-    return std::make_unique<MappedSource>(mapping, std::span(static_cast<const std::byte*>(data), size),
-                                          name);
+std::unique_ptr<ByteSource> openSource(const std::filesystem::path& path, uint64_t offset, uint64_t length) {
+    const std::string name = path.string();
+    const Descriptor descriptor = openToRead(path);
+    const uint64_t size = regularSize(descriptor, name);
+    if (offset >= size || length > size - offset)
+        throw Error(ErrorKind::invalid, name + ": the range from byte " + std::to_string(offset) +
+                                            (length > 0 ? " of " + std::to_string(length) + " bytes" : "") +
+                                            " is not within the file's " + std::to_string(size) + " bytes");
+    auto mapped = mapRange(descriptor, offset, length > 0 ? length : size - offset, name);
+    if (!mapped) failIo(name, "map");
+    return mapped;
+}
+
+std::unique_ptr<ByteSource> viewSource(std::span<const std::byte> bytes, const std::string& name) {
+    return std::make_unique<ViewedSource>(nullptr, bytes, name);
 }
 
 std::unique_ptr<ByteSource> memorySource(std::span<const std::byte> bytes, const std::string& name) {

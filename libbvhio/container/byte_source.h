@@ -38,6 +38,12 @@ class ByteSource {
 /// Opens a path. A regular file is mapped, and its bytes are used in place; anything else is read as a
 /// stream. "-" is standard input.
 std::unique_ptr<ByteSource> openSource(const std::filesystem::path& path);
+/// Opens the bytes [offset, offset + length) of a regular file as a source of their own; length 0 means up to
+/// the file's end. Throws Error: io; invalid when the file ends before the range does.
+std::unique_ptr<ByteSource> openSource(const std::filesystem::path& path, uint64_t offset, uint64_t length);
+/// Uses `bytes` in place. They must live as long as everything that was taken from the source. Bytes whose
+/// address is not a multiple of 64 where their offset is one are copied.
+std::unique_ptr<ByteSource> viewSource(std::span<const std::byte> bytes, const std::string& name);
 /// Reads from `bytes`, by copying. They must live as long as the source.
 std::unique_ptr<ByteSource> memorySource(std::span<const std::byte> bytes, const std::string& name);
 /// Reads a file descriptor as a stream, and leaves it open.

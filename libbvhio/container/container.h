@@ -56,12 +56,18 @@ class ContentHash {
     std::vector<uint64_t> records_;
 };
 
-/// Reads a container front to back. Checks all clauses R10xx, and throws FindingError at the first one that
-/// is broken.
+/// How much of a file its reader checks. It takes a trusted file's payloads as they are: it does not check
+/// their checksums, the content hash, and anything that asks for a look at every element. Only files that this
+/// machine has checked or written before may be trusted: a damaged one makes the reader access memory
+/// anywhere.
+enum class Trust { checked, trusted };
+
+/// Reads a container front to back. Checks all clauses R10xx, unless the file is trusted, and throws
+/// FindingError at the first one that is broken.
 class ContainerReader {
   public:
     /// Reads the file's header.
-    explicit ContainerReader(ByteSource& source);
+    explicit ContainerReader(ByteSource& source, Trust trust = Trust::checked);
 
     /// Returns the next chunk's header, or nothing after a valid END chunk, which ends the file.
     std::optional<ChunkHeader> nextHeader();
@@ -78,15 +84,23 @@ class ContainerReader {
     [[noreturn]] void fail(FindingId id, const std::string& message) const;
     const std::string& name() const { return source_.name(); }
     const ChunkHeader& lastHeader() const { return header_; }
+    /// Every chunk header that was read, in file order.
+    const std::vector<ChunkHeader>& headers() const { return headers_; }
+    bool isTrusted() const { return trust_ == Trust::trusted; }
+    /// What END states; 0 until END was read.
+    uint64_t contentHash() const { return contentHash_; }
 
   private:
     Bytes takeStored();
     void checkEnd(const Bytes& payload);
 
     ByteSource& source_;
+    Trust trust_;
     ChunkHeader header_;
+    std::vector<ChunkHeader> headers_;
     ContentHash hash_;
     uint64_t chunks_ = 0;
+    uint64_t contentHash_ = 0;
     bool pending_ = false;  // a header was read, but not its payload yet
     bool skipped_ = false;
 };

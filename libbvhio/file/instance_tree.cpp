@@ -27,6 +27,7 @@ SharedArray<uint32_t> readEntries(ChunkSequence& chunks, const Scene& scene) {
 
 void judgeInstances(ChunkSequence& chunks, const TwoLevelForm& form, const TreeParameters& parameters,
                     const Scene& scene, const NodesPlace& topPlace, const NodesPlace& bottomPlace) {
+    if (chunks.isTrusted()) return;
     uint32_t depth = 0;
     const auto judge = [&](const Bvh& bvh, size_t primitives, const PrimitiveBounds& bounds,
                            const std::string& name, const NodesPlace& place, bool isBottom,

@@ -66,7 +66,7 @@ struct FormChunks<MvhForm> {
         const uint64_t nodesOffset = chunks.payloadOffset();
         MvhForm form(bounds, parameters, std::move(words),
                      chunks.expectArray<uint32_t>(kPrimitivesType, tree.references));
-        judgeTree(chunks, form.decode(), tree, scene, nodesOffset, 0);
+        judgeForm(chunks, form, tree, scene, nodesOffset, 0);
         return form;
     }
 };

@@ -47,7 +47,7 @@ struct FormChunks<QuantizedForm> {
         const uint64_t nodesOffset = chunks.payloadOffset() - 2 * nodeSize;
         QuantizedForm form(bounds, bits, std::move(records),
                            chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references));
-        judgeTree(chunks, form.decode(), parameters, scene, nodesOffset, nodeSize);
+        judgeForm(chunks, form, parameters, scene, nodesOffset, nodeSize);
         return form;
     }
 

@@ -164,7 +164,7 @@ QuantizedShortForm FormChunks<QuantizedShortForm>::read(ChunkSequence& chunks,
     if (records == 0 && form.countFrom(0) != parameters.references)
         chunks.fail(FindingId::leafRange, "the root does not own all entries");
     constexpr size_t nodeSize = sizeof(ShortRecord) / 2;
-    judgeTree(chunks, form.decode(), parameters, scene, [&](uint64_t node) {
+    judgeForm(chunks, form, parameters, scene, [&](uint64_t node) {
         if (node < 2) return NodesPlace{kNodesType, nodesOffset, nodeSize};
         const uint32_t slot = check.recordSlots()[node / 2 - 1];
         return NodesPlace{kNodesType, nodesOffset + slot * sizeof(ShortRecord) + node % 2 * nodeSize,

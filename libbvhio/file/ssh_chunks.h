@@ -40,7 +40,7 @@ struct FormChunks<SshForm> {
         const uint64_t nodesOffset = chunks.payloadOffset();
         SshForm form(bounds, std::move(nodes),
                      chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references));
-        judgeTree(chunks, form.decode(), parameters, scene, nodesOffset, sizeof(SshNode));
+        judgeForm(chunks, form, parameters, scene, nodesOffset, sizeof(SshNode));
         return form;
     }
 

@@ -35,6 +35,14 @@ struct NodesPlace {
 void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
                const std::function<NodesPlace(uint64_t node)>& placeOf);
 
+/// Checks the tree of a form as judgeTree does, with boxes as the form reconstructs them; of a trusted file
+/// it decodes nothing. `where` is what judgeTree takes behind the scene.
+template <class F, class... Where>
+void judgeForm(ChunkSequence& chunks, const F& form, const TreeParameters& parameters, const Scene& scene,
+               const Where&... where) {
+    if (!chunks.isTrusted()) judgeTree(chunks, form.decode(), parameters, scene, where...);
+}
+
 /// How one form is stored: specialised for each, with
 /// - kCode: TREE's form field,
 /// - parameters(form): what TREE says, but for the costs,

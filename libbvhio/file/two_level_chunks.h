@@ -122,7 +122,7 @@ struct FormChunks<TwoLevelForm> {
             if (chunks.sound()) judgeInstances(chunks, form, parameters, scene, tlasPlace, blasPlace);
             return form;
         }
-        judgeTree(chunks, form.decode(), parameters, scene,
+        judgeForm(chunks, form, parameters, scene,
                   [&, ofTlas = tlasPlace, ofBlas = blasPlace](uint64_t node) {
                       return node < counts.tlasSlots ? ofTlas.of(node) : ofBlas.of(node - counts.tlasSlots);
                   });

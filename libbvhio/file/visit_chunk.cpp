@@ -5,7 +5,7 @@ namespace bvhio {
 SharedArray<uint32_t> readVisits(ChunkSequence& chunks, const Bvh& bvh) {
     if (!chunks.nextIs(kVisitsType)) return {};
     SharedArray<uint32_t> visits = chunks.expectArray<uint32_t>(kVisitsType, bvh.nodes.size() / 2);
-    if (!chunks.sound()) return visits;  // children may be anywhere
+    if (!chunks.sound() || chunks.isTrusted()) return visits;  // children may be anywhere
     std::vector<Finding> findings;
     for (size_t i = 0; i < bvh.nodes.size() && findings.size() < chunks.maxPerId(); ++i) {
         const Node& node = bvh.nodes[i];

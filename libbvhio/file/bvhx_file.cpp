@@ -9,6 +9,7 @@
 #include "file/scene_chunks.h"
 #include "file/utf8.h"
 #include "file/visit_chunk.h"
+#include "scene/check_scene.h"
 
 namespace bvhio {
 namespace {
@@ -77,6 +78,7 @@ BvhxFile readBvhx(std::span<const std::byte> bytes, const std::string& name) {
 }
 
 std::optional<EncodedBvh> writeBvhx(std::ostream& out, const BvhxFile& file, const WriteOptions& options) {
+    checkScene(file.scene);
     ContainerWriter writer(out, choose(codecs(), "codec", options.codec), options.codecLevel);
     const StoredScene stored = storeScene(file.scene, options);
     writeScene(writer, stored);

@@ -66,9 +66,10 @@ BvhxFile readBvhx(const std::filesystem::path& path);
 /// Reads from memory, copying what it keeps.
 BvhxFile readBvhx(std::span<const std::byte> bytes, const std::string& name);
 
-/// Writes in one pass to a stream that need not be seekable. Throws Error{usage} where nodes of the tree's
-/// form can't be stored as options.nodes says. Returns the tree as written where that is not file.bvh:
-/// refitted to geometry that was stored with losses.
+/// Writes in one pass to a stream that need not be seekable. Throws Error: invalid, before anything is
+/// written, where the scene breaks a promise of scene/scene.h, or where the tree is not over its triangles;
+/// usage where nodes of the tree's form can't be stored as options.nodes says. Returns the tree as written
+/// where that is not file.bvh: refitted to geometry that was stored with losses.
 std::optional<EncodedBvh> writeBvhx(std::ostream& out, const BvhxFile& file, const WriteOptions& options);
 
 /// What a pass did to a tree.

@@ -17,8 +17,20 @@ namespace {
 
 constexpr size_t kTreeSize = 64;
 
+/// Whether a tree with such counts can be over the scene.
+bool countsFit(const TreeParameters& p, const Scene& scene) {
+    return p.references >= scene.triangles.size() && p.references <= 0xFFFFFFFF && p.nodeSlots >= 2 &&
+           p.nodeSlots % 2 == 0 && p.nodeSlots <= 2 * (p.references + scene.instances.size()) &&
+           p.nodeSlots <= 0xFFFFFFFE && p.depth <= kMaxDepth;
+}
+
+std::string describeCounts(const TreeParameters& p, const Scene& scene) {
+    return std::to_string(p.nodeSlots) + " node slots and " + std::to_string(p.references) +
+           " references of depth " + std::to_string(p.depth) + " are no tree over " +
+           std::to_string(scene.triangles.size()) + " triangles";
+}
+
 TreeParameters readParameters(ChunkSequence& chunks, const Scene& scene) {
-    const uint64_t triangles = scene.triangles.size();
     const Bytes payload = chunks.expect(kTreeType, kTreeSize);
     ByteReader reader(payload, "chunk TREE");
     TreeParameters p;
@@ -31,13 +43,7 @@ TreeParameters readParameters(ChunkSequence& chunks, const Scene& scene) {
     p.depth = reader.u32();
     zero &= reader.skipZeros(reader.remaining());
     if (!zero) chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
-    if (p.references < triangles || p.references > 0xFFFFFFFF || p.nodeSlots < 2 || p.nodeSlots % 2 != 0 ||
-        p.nodeSlots > 2 * (p.references + scene.instances.size()) || p.nodeSlots > 0xFFFFFFFE ||
-        p.depth > kMaxDepth)
-        chunks.fail(FindingId::treeCounts, std::to_string(p.nodeSlots) + " node slots and " +
-                                               std::to_string(p.references) + " references of depth " +
-                                               std::to_string(p.depth) + " are no tree over " +
-                                               std::to_string(triangles) + " triangles");
+    if (!countsFit(p, scene)) chunks.fail(FindingId::treeCounts, describeCounts(p, scene));
     for (const float cost : {p.costs.traversal, p.costs.intersection})
         if (!std::isfinite(cost) || std::signbit(cost))
             chunks.fail(FindingId::treeCosts, "a SAH cost is negative or not finite");
@@ -70,6 +76,7 @@ void writeTree(ContainerWriter& writer, const EncodedBvh& bvh, const SahCosts& c
         [&](const auto& form) {
             using Chunks = FormChunks<std::decay_t<decltype(form)>>;
             const TreeParameters p = Chunks::parameters(form);
+            if (!countsFit(p, scene)) throw Error(ErrorKind::invalid, describeCounts(p, scene));
             ByteWriter bytes;
             bytes.u32(p.form);
             bytes.zeros(4);

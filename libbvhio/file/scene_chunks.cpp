@@ -1,14 +1,12 @@
 #include "file/scene_chunks.h"
 
 #include <algorithm>
-#include <atomic>
-#include <bit>
 
 #include "core/bytes.h"
-#include "core/parallel.h"
 #include "file/instance_chunks.h"
 #include "file/utf8.h"
 #include "importers/draco_mesh.h"
+#include "scene/check_scene.h"
 #include "scene/scene_order.h"
 
 namespace bvhio {
@@ -87,10 +85,6 @@ std::vector<Geometry> readGeometries(ChunkSequence& chunks, const SceneParameter
     return geometries;
 }
 
-Finding geometryFinding(FindingId id, uint32_t chunk, uint64_t offset, const std::string& message) {
-    return {id, Finding::Severity::error, message, chunkTypeName(chunk), offset, kNowhere};
-}
-
 /// Reads vertices and triangles out of the Draco chunk.
 void readDraco(ChunkSequence& chunks, const SceneParameters& parameters, Scene& scene) {
     const Bytes payload = chunks.expect(kDracoType, ChunkSequence::kAnySize);
@@ -108,20 +102,13 @@ void readDraco(ChunkSequence& chunks, const SceneParameters& parameters, Scene& 
     scene.triangles = std::move(mesh.triangles);
 }
 
-/// Runs bad(i) over the elements of [0, count) whose stretch `anyBad(begin, end)` says holds one, until
-/// `maxFound` are found.
-template <class AnyBad, class Report>
-void findBad(size_t count, size_t maxFound, const AnyBad& anyBad, const Report& report) {
-    std::atomic<bool> found = false;
-    parallelChunks(count, 65536, [&](size_t begin, size_t end) {
-        if (anyBad(begin, end)) found = true;
-    });
-    if (!found) return;
-    for (size_t i = 0, reported = 0; i < count && reported < maxFound; ++i)
-        if (anyBad(i, i + 1)) {
-            report(i);
-            ++reported;
-        }
+/// Findings about an array of the scene, which fills the chunk that was read last.
+void judgeArray(ChunkSequence& chunks, uint32_t type, std::vector<Finding> (*check)(const Scene&, size_t),
+                const Scene& scene) {
+    if (chunks.isTrusted()) return;
+    std::vector<Finding> findings = check(scene, chunks.maxPerId());
+    for (Finding& finding : findings) finding.chunk = chunkTypeName(type);
+    chunks.judge(std::move(findings), chunks.payloadOffset());
 }
 
 }  // namespace
@@ -189,62 +176,15 @@ Scene readScene(ChunkSequence& chunks) {
         readDraco(chunks, parameters, scene);
     } else {
         scene.vertices = chunks.expectArray<Vec3>(kVerticesType, parameters.vertices);
-        chunks.judge(checkVertices(scene, chunks.maxPerId()), chunks.payloadOffset());
+        judgeArray(chunks, kVerticesType, checkVertices, scene);
         scene.triangles = chunks.expectArray<TriangleIndices>(kTrianglesType, parameters.triangles);
-        chunks.judge(checkTriangles(scene, chunks.maxPerId()), chunks.payloadOffset());
+        judgeArray(chunks, kTrianglesType, checkTriangles, scene);
     }
     scene.geometries = readGeometries(chunks, parameters);
     if ((parameters.flags & kHasSourcePrimitives) != 0)
         scene.sourcePrimitives = chunks.expectArray<uint32_t>(kSourcePrimitivesType, parameters.triangles);
     if ((parameters.flags & kHasInstances) != 0) readInstances(chunks, parameters.instances, scene);
     return scene;
-}
-
-std::vector<Finding> checkVertices(const Scene& scene, size_t maxPerId) {
-    std::vector<Finding> findings;
-    const std::span<const float> coordinates{&scene.vertices.data()->x, scene.vertices.size() * 3};
-    // Over bits, so that the compiler can use vectors: the exponent of what is not finite is all ones, and -0
-    // is one pattern.
-    const auto anyNotFinite = [&](size_t begin, size_t end) {
-        bool bad = false;
-        for (size_t i = begin; i < end; ++i)
-            bad |= (std::bit_cast<uint32_t>(coordinates[i]) & 0x7F800000u) == 0x7F800000u;
-        return bad;
-    };
-    const auto anyNegativeZero = [&](size_t begin, size_t end) {
-        bool bad = false;
-        for (size_t i = begin; i < end; ++i) bad |= std::bit_cast<uint32_t>(coordinates[i]) == 0x80000000u;
-        return bad;
-    };
-    findBad(coordinates.size(), maxPerId, anyNotFinite, [&](size_t i) {
-        findings.push_back(geometryFinding(FindingId::vertexNotFinite, kVerticesType, i * sizeof(float),
-                                           "vertex " + std::to_string(i / 3) + " is not finite"));
-    });
-    findBad(coordinates.size(), maxPerId, anyNegativeZero, [&](size_t i) {
-        findings.push_back(geometryFinding(FindingId::negativeZero, kVerticesType, i * sizeof(float),
-                                           "a coordinate of vertex " + std::to_string(i / 3) + " is -0"));
-    });
-    return findings;
-}
-
-std::vector<Finding> checkTriangles(const Scene& scene, size_t maxPerId) {
-    std::vector<Finding> findings;
-    const uint64_t vertexCount = scene.vertices.size();
-    const auto anyOutOfRange = [&](size_t begin, size_t end) {
-        bool bad = false;
-        for (size_t i = begin; i < end; ++i) {
-            const TriangleIndices& t = scene.triangles[i];
-            bad |= (t.v0 >= vertexCount) | (t.v1 >= vertexCount) | (t.v2 >= vertexCount);
-        }
-        return bad;
-    };
-    findBad(scene.triangles.size(), maxPerId, anyOutOfRange, [&](size_t i) {
-        findings.push_back(geometryFinding(FindingId::vertexIndex, kTrianglesType,
-                                           i * sizeof(TriangleIndices),
-                                           "triangle " + std::to_string(i) + " has a vertex index beyond " +
-                                               std::to_string(vertexCount - 1)));
-    });
-    return findings;
 }
 
 PrimitiveBounds boundsOfTriangles(const Scene& scene) {

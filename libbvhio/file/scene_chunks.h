@@ -21,11 +21,6 @@ void writeScene(ContainerWriter& writer, const StoredScene& stored);
 /// Reads a scene that keeps every promise of scene/scene.h; throws FindingError otherwise.
 Scene readScene(ChunkSequence& chunks);
 
-/// Checks coordinates, or indices, in parallel: at most `maxPerId` findings of each kind, offsets from the
-/// array's start.
-std::vector<Finding> checkVertices(const Scene& scene, size_t maxPerId);
-std::vector<Finding> checkTriangles(const Scene& scene, size_t maxPerId);
-
 /// The boxes of the scene's triangles, for `validate` and `refit`. The scene must outlive it.
 PrimitiveBounds boundsOfTriangles(const Scene& scene);
 

@@ -31,6 +31,12 @@ uint32_t Scene::instanceOf(uint32_t primitive) const {
     return uint32_t(after - instances.begin()) - 1;
 }
 
+uint32_t Scene::triangleOf(uint32_t primitive) const {
+    if (!isInstanced()) return primitive;
+    const SceneInstance& instance = instances[instanceOf(primitive)];
+    return meshes[instance.mesh].firstTriangle + primitive - instance.firstPrimitive;
+}
+
 Triangle Scene::placedTriangle(uint32_t primitive) const {
     if (!isInstanced()) return triangle(primitive);
     const SceneInstance& instance = instances[instanceOf(primitive)];

@@ -76,6 +76,8 @@ struct Scene {
     uint32_t placedGeometryCount() const;
     /// Returns the number of the instance that has the primitive. For instanced scenes only.
     uint32_t instanceOf(uint32_t primitive) const;
+    /// Returns the index of the primitive's triangle in `triangles`.
+    uint32_t triangleOf(uint32_t primitive) const;
     /// Returns the primitive's triangle in the world, with vertices rounded to float.
     Triangle placedTriangle(uint32_t primitive) const;
     /// How hit files and reports name a primitive: its geometry, its number there in source order, and its

@@ -13,7 +13,7 @@ std::vector<uint32_t> depthsOfPairs(const Bvh& bvh) {
 
 uint32_t depthOf(const Bvh& bvh) {
     const std::vector<uint32_t> depths = depthsOfPairs(bvh);
-    return *std::max_element(depths.begin(), depths.end());
+    return depths.empty() ? 0 : *std::max_element(depths.begin(), depths.end());
 }
 
 }  // namespace bvhio

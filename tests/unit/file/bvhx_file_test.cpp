@@ -197,6 +197,33 @@ TEST(BvhxFile, namesThatAreNoTextBecomeText) {
               "caf\xEF\xBF\xBD \xF0\x9F\x8C\xB2 \xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
 }
 
+// A writer makes nothing that a reader refuses: scenes without geometries became files that end with finding
+// 2007.
+TEST(BvhxFile, scenesAndTreesThatNoReaderTakesAreNotWritten) {
+    const auto expectRefused = [](const BvhxFile& file, const char* word) {
+        std::ostringstream out;
+        try {
+            writeBvhx(out, file, {});
+            ADD_FAILURE() << word;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::invalid);
+            EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        }
+    };
+    BvhxFile file = sampleFile();
+    file.scene.geometries.clear();
+    expectRefused(file, "no geometries");
+    file = sampleFile();
+    file.scene.vertices = std::vector<Vec3>{{0, 0, 0}};
+    expectRefused(file, "vertex index beyond 0");
+    file = sampleFile();
+    file.scene = sampleScene(22);
+    expectRefused(file, "21 references");
+    file = sampleFile();
+    file.bvh = AabbForm({});
+    expectRefused(file, "0 node slots");
+}
+
 TEST(BvhxFile, codecAndLevelAreChecked) {
     EXPECT_THROW(written(sampleFile(), {.codec = "lzma"}), Error);
     EXPECT_THROW(written(sampleFile(), {.codec = "zstd", .codecLevel = 99}), Error);

@@ -5,6 +5,8 @@
 #include <ostream>
 #include <string>
 
+#include "file/safe_file.h"
+
 namespace bvhio {
 
 /// Removes the temporary files of every Output when SIGINT, SIGTERM or SIGHUP ends the process.
@@ -30,14 +32,14 @@ class Output {
     void commit();
 
   private:
-    class Buffer;
-    std::string name_;       // for messages
-    std::string finalPath_;  // empty when written in place
-    std::string temporary_;
+    class Slot;
+
+    std::string name_;   // for messages
     std::string place_;  // taken by this output, so that no other goes there
-    std::unique_ptr<Buffer> buffer_;
+    std::unique_ptr<Slot> slot_;
+    std::unique_ptr<SafeFile> safe_;      // of a regular file
+    std::unique_ptr<FileBuffer> buffer_;  // of what is written in place
     std::unique_ptr<std::ostream> stream_;
-    int slot_ = -1;  // in the list of what signals remove
 };
 
 }  // namespace bvhio

@@ -1,7 +1,6 @@
 // The frame of a tool that writes a container: its options, its stages, its provenance and its report.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -9,7 +8,7 @@
 #include "common/output.h"
 #include "common/progress_bar.h"
 #include "core/report.h"
-#include "file/bvhx_file.h"
+#include "file/change_trees.h"
 
 namespace bvhio {
 
@@ -41,15 +40,6 @@ class Pass {
     std::optional<double> sahBefore_;
     std::optional<Report> options_;
 };
-
-/// Both levels of an instanced scene as they are built: in the aabb form.
-EncodeOptions exactLevels();
-
-/// Puts what the function makes of the container's tree in its place, in the aabb form; in an instanced scene
-/// that of each tree, `isTop` for the one over the instances, whose scene has a triangle in each instance's
-/// box.
-using TreeFunction = std::function<Bvh(const Scene&, const Bvh&, bool isTop)>;
-void changeTrees(BvhxFile& file, const TreeFunction& function);
 
 /// The most memory the process has had, in bytes.
 uint64_t peakBytes();

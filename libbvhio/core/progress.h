@@ -1,21 +1,43 @@
-// How much of its work a pass has done.
+// How much of its work a pass has done, and how a listener ends the pass early.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <exception>
 
 namespace bvhio {
 
+/// Ends a pass that was cancelled. It is not an Error: nothing is wrong with the data.
+struct Cancelled : std::exception {
+    const char* what() const noexcept override { return "cancelled"; }
+};
+
+/// Hears of progress on the threads that make it, on several at once. What it throws ends the pass: the pass's
+/// function throws it, and the pass's input stays as it was.
+class ProgressListener {
+  public:
+    virtual ~ProgressListener() = default;
+    virtual void advanced(uint64_t done, uint64_t total) = 0;
+};
+
 /// A pass adds the work it has finished to `done`, from any thread, in portions so large that adding costs
-/// nothing. Another thread may watch it. `total` is in the same unit, and 0 while it is unknown.
+/// nothing. Another thread may watch it, or a listener is told. `total` is in the same unit, and 0 while it is
+/// unknown.
 struct Progress {
     std::atomic<uint64_t> done{0}, total{0};
+    ProgressListener* listener = nullptr;
 
     void start(uint64_t newTotal) {
         done.store(0, std::memory_order_relaxed);
         total.store(newTotal, std::memory_order_relaxed);
+        report(0);
     }
-    void add(uint64_t amount) { done.fetch_add(amount, std::memory_order_relaxed); }
+    void add(uint64_t amount) { report(done.fetch_add(amount, std::memory_order_relaxed) + amount); }
+
+  private:
+    void report(uint64_t now) {
+        if (listener) listener->advanced(now, total.load(std::memory_order_relaxed));
+    }
 };
 
 }  // namespace bvhio

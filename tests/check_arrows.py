@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks the include arrows: a folder of libbvhio includes only folders to its left in
     core <- {tree, container} <- scene <- {importers, build, restructure, relayout, compress, rays} <- {metrics, pictures}
-    <- {trace, stats, file} <- tools
+    <- {trace, stats, file} <- api <- tools
 (folders inside braces never include each other), and each third-party header is included only in its listed places. Prints one line
 for each include that breaks a rule. Usage: check_arrows.py [ROOT]"""
 
@@ -16,6 +16,7 @@ RANKS = [
     ["importers", "build", "restructure", "relayout", "compress", "rays"],
     ["metrics", "pictures"],
     ["trace", "stats", "file"],
+    ["api"],
 ]
 RANK = {folder: rank for rank, folders in enumerate(RANKS) for folder in folders}
 

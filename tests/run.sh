@@ -51,7 +51,10 @@ install() {
         cmake -G Ninja -S samples/library -B "$prefix/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >/dev/null &&
         cmake --build "$prefix/build" &&
         "$prefix/bin/bvh-build" samples/scenes/courtyard.glb -o "$prefix/scene.bvhx" &&
-        "$prefix/build/shoot" "$prefix/scene.bvhx" | grep '^hit at'
+        "$prefix/build/shoot" "$prefix/scene.bvhx" | grep '^hit at' &&
+        "$prefix/build/shoot_cpp" "$prefix/scene.bvhx" | grep '^hit at' &&
+        "$prefix/build/own_triangles" "$prefix/hills.bvhx" | grep '^hit triangle' &&
+        "$prefix/build/own_traversal" "$prefix/hills.bvhx"
     local code=$?
     rm -rf "$prefix"
     return $code

@@ -10,15 +10,16 @@ namespace {
 constexpr char kHitSignature[9] = "BVHHITS1";
 }
 
+HitRecord hitRecord(const Scene& scene, const Hit& hit) {
+    if (hit.isMiss()) return {};
+    const Scene::PrimitiveId id = scene.primitiveId(hit.primitive);
+    return {hit.t, hit.u, hit.v, id.primitive, id.geometry, id.instance};
+}
+
 std::vector<HitRecord> hitRecords(const Scene& scene, std::span<const Hit> hits) {
     std::vector<HitRecord> records(hits.size());
     parallelChunks(hits.size(), 1 << 14, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            const Hit& hit = hits[i];
-            if (hit.isMiss()) continue;
-            const Scene::PrimitiveId id = scene.primitiveId(hit.primitive);
-            records[i] = {hit.t, hit.u, hit.v, id.primitive, id.geometry, id.instance};
-        }
+        for (size_t i = begin; i < end; ++i) records[i] = hitRecord(scene, hits[i]);
     });
     return records;
 }

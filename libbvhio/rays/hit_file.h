@@ -25,6 +25,8 @@ struct HitRecord {
 };
 static_assert(sizeof(HitRecord) == 24);
 
+/// Returns the record of a hit in `scene`.
+HitRecord hitRecord(const Scene& scene, const Hit& hit);
 /// Returns the records of hits in `scene`, in order.
 std::vector<HitRecord> hitRecords(const Scene& scene, std::span<const Hit> hits);
 

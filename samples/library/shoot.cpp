@@ -1,28 +1,28 @@
-// Loads a .bvhx file, shoots one ray through the middle of its scene from the front, and prints what it hits.
-#include <array>
+// Opens a .bvhx file, shoots one ray through the middle of its scene from the front, and prints what it hits.
+#include <bvhio.hpp>
+#include <cmath>
 #include <cstdio>
 
-#include "file/bvhx_file.h"
-#include "trace/trace.h"
-
 int main(int argc, char** argv) {
-    if (argc != 2) return std::fprintf(stderr, "usage: shoot FILE.bvhx\n"), 1;
+    if (argc != 2) return std::fprintf(stderr, "usage: shoot_cpp FILE.bvhx\n"), 1;
     try {
-        const bvhio::BvhxFile file = bvhio::readBvhx(argv[1]);
-        const bvhio::Aabb bounds = bvhio::decode(file.bvh).nodes[0].bounds;
+        const bvhio::Container container = bvhio::Container::open(argv[1]);
+        const bvhio::Node& root = container.tree().nodes[0];
 
-        bvhio::Ray ray;
-        ray.origin = bounds.center();
-        ray.origin.z = bounds.max.z + bounds.extent().z;
-        ray.direction = {0, 0, -1};
+        bvhio::Ray ray{};
+        for (int axis = 0; axis < 3; ++axis) ray.origin[axis] = 0.5f * (root.min[axis] + root.max[axis]);
+        ray.origin[2] = 2 * root.max[2] - root.min[2];
+        ray.direction[2] = -1;
+        ray.tMax = INFINITY;
 
-        const bvhio::Tracer tracer(file.scene, file.bvh);
-        std::array<bvhio::Hit, 1> hit;
-        tracer.closestHits({&ray, 1}, hit);
-        if (hit[0].isMiss()) return std::puts("miss"), 0;
-        const auto id = file.scene.primitiveId(hit[0].primitive);
-        std::printf("hit at t = %g: geometry %u, primitive %u\n", hit[0].t, id.geometry, id.primitive);
+        const bvhio::Tracer tracer(container);
+        bvhio::Hit hit;
+        if (tracer.trace(ray, hit))
+            std::printf("hit at t = %g: geometry %u, primitive %u, instance %u\n", hit.t, hit.geometry,
+                        hit.primitive, hit.instance);
+        else
+            std::puts("miss");
     } catch (const bvhio::Error& error) {
-        return std::fprintf(stderr, "shoot: %s\n", error.what()), int(error.kind());
+        return std::fprintf(stderr, "shoot_cpp: %s\n", error.what()), int(error.status());
     }
 }

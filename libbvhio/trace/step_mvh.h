@@ -19,6 +19,7 @@
 #endif
 
 #include "compress/mvh_form.h"
+#include "trace/mvh_cursor.h"
 #include "trace/ray_frame.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -49,25 +50,18 @@ struct MvhRay {
     }
 };
 
-/// A node's box as a ray meets its planes, and the ray's interval in it: a tree starts from any box and
-/// interval at no cost.
-struct MvhPart {
-    Four near;  // by axis; lane 3: where the ray enters
-    Four far;   // lane 3: minus where it leaves
-
-    MvhPart() = default;
-    /// Of a root.
-    HWY_INLINE MvhPart(const MvhRay& ray, const Aabb& box, RayInterval interval) {
-        for (int a = 0; a < 3; ++a) {
-            const bool backwards = ray.axes[a].backwards[0] != 0;
-            near[a] = component(backwards ? box.max : box.min, a);
-            far[a] = component(backwards ? box.min : box.max, a);
-        }
-        near[3] = interval.enter;
-        far[3] = -interval.exit;
+/// A whole tree's box, which the ray enters.
+HWY_INLINE MvhPart mvhPart(const MvhRay& ray, const Aabb& box, RayInterval interval) {
+    MvhPart part;
+    for (int a = 0; a < 3; ++a) {
+        const bool backwards = ray.axes[a].backwards[0] != 0;
+        part.near[a] = component(backwards ? box.max : box.min, a);
+        part.far[a] = component(backwards ? box.min : box.max, a);
     }
-    HWY_INLINE float enter() const { return near[3]; }
-};
+    part.near[3] = interval.enter;
+    part.far[3] = -interval.exit;
+    return part;
+}
 
 /// In which order a step visits its lanes, by what is swapped (bit 0: left and right, 1 and 2: those below
 /// each) and which are entered: a byte for each, from the lowest on.
@@ -237,32 +231,12 @@ HWY_INLINE void stepMvh(const MvhTables& tables, const MvhRay& ray, uint32_t cod
 template <>
 class Stepper<MvhForm> {
   public:
+    using Cursor = MvhCursor;
     using Ray = MvhRay;
     static constexpr int kMaxPushed = 3;
     /// Per box, as the planes of both children are made together: half of 3 sizes, 2 products and 4 planes;
     /// 2 differences and 2 products. Half of 2 comparisons for the axis; 2 for the interval, 2 to compare.
     static constexpr BoxTestCost kBoxTestCost{9, 5};
-
-    class Cursor {
-      public:
-        Cursor() = default;
-        HWY_INLINE Cursor(const MvhPart& whole, uint32_t number, uint32_t turn)
-            : part(whole), node_(uint64_t(turn) << 32 | number) {}
-        // As they were written: what was just written in other pieces can't be read for a while.
-        HWY_INLINE Cursor(const Cursor& other) : part(other.part), node_(other.node_) {}
-        HWY_INLINE Cursor& operator=(const Cursor& other) {
-            part = other.part;
-            node_ = other.node_;
-            return *this;
-        }
-
-        HWY_INLINE uint32_t node() const { return uint32_t(node_); }
-        HWY_INLINE uint32_t turn() const { return uint32_t(node_ >> 32); }
-        MvhPart part;
-
-      private:
-        uint64_t node_;  // the upper half is whose turn it is
-    };
 
     explicit Stepper(const MvhForm& form)
         : form_(form), tables_(form.tables()), shape_(form.shape()), words_(form.words().data()) {}
@@ -274,7 +248,7 @@ class Stepper<MvhForm> {
                               Metrics& metrics) const {
         metrics.boxesTested(1, kFullBoxTestCost);
         const RayInterval interval = clipToBox(ray.ray, form_.bounds(), tLimit);
-        root = {{MvhPart(ray, form_.bounds(), interval), 0, 0}, interval.enter};
+        root = {{mvhPart(ray, form_.bounds(), interval), 0, 0}, interval.enter};
         return !interval.isEmpty();
     }
 

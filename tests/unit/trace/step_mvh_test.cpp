@@ -82,7 +82,7 @@ TEST_F(MvhStepTest, isWhatBoxesTellOneAfterTheOther) {
         const MvhRay mvhRay(ray);
         MvhStep step;
         stepMvh(tables, mvhRay, codes[0], codes[1], codes[2], twoLevels,
-                MvhPart(mvhRay, node.box.bounds, node.interval), node.box.turn, tLimit, step);
+                mvhPart(mvhRay, node.box.bounds, node.interval), node.box.turn, tLimit, step);
 
         Reference children[2], lanes[4];
         uint32_t swapped[3] = {};

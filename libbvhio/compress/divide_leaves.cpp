@@ -18,7 +18,7 @@ Forest divideLeaves(const Forest& forest, uint32_t maxSize) {
         if (node.isLeaf() && !isLarge(node)) return node;
         if (depth == kMaxDepth)
             throw Error(ErrorKind::unsupported, "leaves of more than " + std::to_string(maxSize) +
-                                                    " triangles lie too deep to be divided: use another "
+                                                    " triangles are too deep to be divided: use another "
                                                     "--form, or build with a smaller --max-leaf-size");
         if (!node.isLeaf()) {
             depths[node.left() / 2] = uint8_t(depth + 1);

@@ -1,15 +1,15 @@
-// For forms whose leaves are small.
+// Divides leaves, for forms whose leaves are small.
 #pragma once
 
 #include "compress/two_levels.h"
 
 namespace bvhio {
 
-/// The trees with no leaf of more than `maxSize` primitives: larger ones are halved, and their halves, each
-/// within the same box. New pairs stand behind all others. Throws Error{unsupported} if that makes a tree too
-/// deep.
+/// Returns the trees with leaves of at most `maxSize` primitives. Larger leaves are halved again and again,
+/// and all parts have the leaf's box. New pairs come after all others. Throws Error{unsupported} if that
+/// makes a tree too deep.
 Forest divideLeaves(const Forest& forest, uint32_t maxSize);
-/// The same for one tree.
+/// Does the same for a single tree.
 Bvh divideLeaves(const Bvh& bvh, uint32_t maxSize);
 
 }  // namespace bvhio

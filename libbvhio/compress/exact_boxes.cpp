@@ -10,7 +10,8 @@
 namespace bvhio {
 namespace {
 
-/// The smallest box around what of a leaf's triangles lies within it; its own where nothing does.
+/// Returns the smallest box around the parts of a leaf's triangles inside the leaf's box, or the leaf's box
+/// if there are none.
 Aabb boxOfParts(const Scene& scene, const Bvh& bvh, const Node& leaf) {
     Aabb box = Aabb::empty();
     for (uint32_t i = leaf.first; i < leaf.first + leaf.primitiveCount; ++i) {
@@ -21,9 +22,9 @@ Aabb boxOfParts(const Scene& scene, const Bvh& bvh, const Node& leaf) {
     return box.isEmpty() ? leaf.bounds : box;
 }
 
-/// The exact tree of one with split triangles.
+/// Returns the exact tree of a tree with split triangles.
 Bvh exactTreeOfParts(const Scene& scene, const Bvh& bvh) {
-    // Each reference is a primitive of its own, with its leaf's box: then refit does the rest.
+    // Make each reference a primitive of its own, with its leaf's box. Then refit does the rest.
     std::vector<uint32_t> references(bvh.primitives.size());
     std::iota(references.begin(), references.end(), 0u);
     std::vector<Aabb> leafBoxes(bvh.primitives.size());

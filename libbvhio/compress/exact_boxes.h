@@ -1,4 +1,4 @@
-// The tree that a form's larger boxes stand for.
+// Restores exact boxes from the larger boxes of a form.
 #pragma once
 
 #include "scene/scene.h"
@@ -6,13 +6,13 @@
 
 namespace bvhio {
 
-/// The same tree with the smallest boxes that hold the triangles below each node: what a builder made, before
-/// a form enlarged its boxes. Parallel.
+/// Returns the same tree with the smallest boxes that contain the triangles below each node, which are the
+/// builder's boxes, before a form enlarged them. Parallel.
 ///
-/// Which part of a triangle a spatial split gave to which leaf is not stored: for such trees a leaf's box is
-/// that around what of its triangles lies within the box it has. A part that the split gave to the leaf lies
-/// there, with the margin that core/clip_triangle.h proves to be enough: the hits stay the same. Leaves that
-/// nothing of their triangles reaches into keep their boxes.
+/// Files do not store which part of a triangle a spatial split gave to which leaf. In such trees, the new box
+/// of a leaf is the box around the parts of its triangles inside its old box. The part that the split gave to
+/// the leaf lies there, with a margin that core/clip_triangle.h proves to be enough, so hits stay the same. A
+/// leaf whose triangles do not reach into its box keeps the box.
 Bvh withExactBoxes(const Scene& scene, const Bvh& bvh);
 
 }  // namespace bvhio

@@ -11,7 +11,7 @@ std::optional<SeparateTrees> separateTrees(const Forest& forest, std::span<const
     size_t slot = 0;
     uint64_t entry = 0;
     for (const Node& root : forest.roots) {
-        // Children lie behind their parents, so a tree is complete where there are as many pairs as inner
+        // Children come after their parents, so a tree is complete once there are as many pairs as inner
         // nodes.
         const size_t firstSlot = slot;
         size_t pairs = root.isLeaf() ? 0 : 1;

@@ -1,4 +1,4 @@
-// The trees of a forest, together and apart.
+// Separates the trees of a forest, and gathers trees into one.
 #pragma once
 
 #include <optional>
@@ -8,18 +8,18 @@
 
 namespace bvhio {
 
-/// Trees that lie one behind the other: the pairs of each in one stretch of Forest::nodes, and the entries of
-/// its leaves in one stretch of the primitives.
+/// The trees of a forest in which the trees follow one another: the pairs of each tree are a run of
+/// Forest::nodes, and the entries of its leaves a run of the primitives.
 struct SeparateTrees {
-    std::vector<Bvh> trees;            // with the unused slot, and primitives of their own
-    std::vector<uint32_t> firstSlots;  // where the pairs of each start in Forest::nodes
+    std::vector<Bvh> trees;            // with the unused slot, and with their own primitives
+    std::vector<uint32_t> firstSlots;  // the start of each tree's pairs in Forest::nodes
 };
 
-/// Nothing when the trees do not lie so. Indices of leaves' entries may be anything; children must lie behind
-/// their parents, and all of them in range.
+/// Separates the trees of a forest. Returns nothing if the trees do not follow one another. The ranges of
+/// leaves may be anything, but children must come after their parents and be in range.
 std::optional<SeparateTrees> separateTrees(const Forest& forest, std::span<const uint32_t> primitives);
 
-/// The same the other way: valid trees behind each other, and their primitives.
+/// Valid trees, one after another in a forest, and their primitives.
 struct GatheredTrees {
     Forest forest;
     SharedArray<uint32_t> primitives;

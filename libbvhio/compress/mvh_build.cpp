@@ -14,10 +14,10 @@ namespace bvhio {
 namespace {
 
 constexpr double kInnerCost = SahCosts{}.traversal;
-// Runs from here on are split by several threads, and subtrees from there on are tasks of their own.
+// From these sizes on, runs are split by several threads, and subtrees are tasks of their own.
 constexpr size_t kParallelRun = 16384, kParallelSubtree = 4096;
 
-/// By what a run can be put in order: the centre, low or high side of boxes, along an axis.
+/// A key by which a run can be sorted: the centre, low side or high side of boxes, along an axis.
 struct Key {
     uint32_t kind, axis;
 
@@ -26,7 +26,7 @@ struct Key {
         const float min = component(r.min, int(axis)), max = component(r.max, int(axis));
         return kind == 0 ? min * 0.5f + max * 0.5f : kind == 1 ? min : max;
     }
-    /// Calls body(function from a reference to its key).
+    /// Calls body with the function that returns the key of a reference.
     template <class Body>
     auto with(const Body& body) const {
         const auto at = [a = axis](auto k) {
@@ -38,14 +38,14 @@ struct Key {
     }
 };
 
-/// A reference's place in a key's order: no two have the same.
+/// Returns the place of a reference in the order of a key. All places differ.
 uint64_t placeOf(float key, uint32_t primitive) {
     const auto bits = std::bit_cast<uint32_t>(key);
     const uint32_t ordered = bits ^ (uint32_t(int32_t(bits) >> 31) | 0x80000000u);
     return uint64_t(ordered) << 32 | primitive;
 }
 
-/// A box that grows, in the lanes of references; the last ones mean nothing.
+/// A growing box, in the lanes of references. The last lanes are undefined.
 class Extent {
   public:
     void extend(const MvhReference& r) {
@@ -77,14 +77,14 @@ class Extent {
 #endif
 };
 
-/// The references below a place and the others, and what bounds them.
+/// A cut of a run: the place of the cut, and the bounds of the references below it and of the others.
 struct Halves {
     uint64_t place;
     Aabb low, high;
 };
 
-/// Cuts a run of at most kSmall references behind the first `rank` in the key's order. How many are before
-/// each is counted: sorting so few is slower, as processors cannot foresee its branches.
+/// Cuts a run of at most kSmall references after the first `rank` in the order of the key. Counts the
+/// references before each one: sorting so few is slower, because its branches cannot be predicted.
 constexpr size_t kSmall = 16;
 template <class KeyOf>
 Halves halveSmall(std::span<const MvhReference> run, const KeyOf& keyOf, size_t rank) {
@@ -101,19 +101,21 @@ Halves halveSmall(std::span<const MvhReference> run, const KeyOf& keyOf, size_t 
     return {place, sides[0].box(), sides[1].box()};
 }
 
-/// The same for a run of any length, within [low, high] along the axis: a histogram of the keys tells the bin
-/// of the cut, and only that bin's references are put in order.
+/// Does the same for a run of any length with keys in [low, high]. A histogram of the keys gives the bin of
+/// the cut, and only the references of that bin are sorted.
 template <class KeyOf>
 Halves halveLarge(std::span<const MvhReference> run, float low, float high, const KeyOf& keyOf, size_t rank) {
     constexpr uint32_t kMostBins = 256;
     const uint32_t bins = run.size() < 256 ? 32 : kMostBins;
     const float last = float(bins - 1), scale = float(bins) / (high - low);
-    // Monotone in the key, whatever overflows: the first bin takes NaNs, which are 0 times infinity, and
-    // centres that rounding puts below the box, as it does those of denormals.
+    // Bins are monotone in the key, even with overflow. The first bin takes NaNs (0 times infinity), and
+    // centres that rounding moves below the box, as happens with denormals.
     const auto binOf = [&](float value) {
         const float bin = (value - low) * scale;
         return bin > 0 ? uint32_t(int32_t(bin < last ? bin : last)) : 0u;
     };
+
+    // Find the bin of the cut.
     uint32_t counts[kMostBins];
     std::fill_n(counts, bins, 0u);
     for (const MvhReference& r : run) ++counts[binOf(keyOf(r))];
@@ -121,6 +123,7 @@ Halves halveLarge(std::span<const MvhReference> run, float low, float high, cons
     size_t below = 0;
     while (below + counts[bin] <= rank) below += counts[bin++];
 
+    // Collect the references of that bin, and the bounds of the others.
     struct Place {
         uint64_t place;
         const MvhReference* reference;
@@ -137,6 +140,8 @@ Halves halveLarge(std::span<const MvhReference> run, float low, float high, cons
         else
             sides[b > bin].extend(r);
     }
+
+    // Find the cut in the bin.
     const auto cut = middle.begin() + std::ptrdiff_t(rank - below);
     std::nth_element(middle.begin(), cut, middle.end(),
                      [](const Place& a, const Place& b) { return a.place < b.place; });
@@ -150,7 +155,7 @@ Aabb boundsOf(std::span<const MvhReference> run) {
     return extent.box();
 }
 
-/// How a run is divided between a node's children.
+/// A division of a run between the children of a node.
 struct Split {
     Key key{};
     uint64_t place = 0;
@@ -163,7 +168,8 @@ class Order {
   public:
     Order(const MvhParameters& parameters, MvhBuild build) : parameters_(parameters), build_(build) {}
 
-    /// `box` is the node's as reconstructed, `tight` what its references need.
+    /// Sorts a run into the order of leaves. `box` is the node's reconstructed box, and `tight` the bounds of
+    /// its references.
     void operator()(std::span<MvhReference> run, const MvhBox& box, const Aabb& tight) const {
         const size_t count = run.size();
         if (count <= parameters_.leafSize) {
@@ -212,7 +218,7 @@ class Order {
 
     Split bestSplit(std::span<const MvhReference> run, const MvhBox& box, const Aabb& tight, size_t leftCount,
                     const MvhCuts& cuts) const {
-        // All but one of a level's nodes are halved evenly; in that one the larger part can be at either end.
+        // All but one node of a level are halved evenly. In that one the larger part can be at either end.
         const size_t ends = 2 * leftCount == run.size() ? 1 : 2;
         Split splits[18];
         const auto evaluate = [&](size_t i) {
@@ -231,7 +237,7 @@ class Order {
             parallelChunks(9 * ends, 1, [&](size_t i, size_t) { evaluate(i); });
         Split best = *std::min_element(splits, splits + 9 * ends,
                                        [](const Split& a, const Split& b) { return a.cost < b.cost; });
-        // Rays take the left child for the lower one along the axis of the cuts.
+        // Rays assume that the left child is the lower one along the axis of the cuts.
         const auto axis = int(cuts.axis);
         if (ends == 1 && best.left.center()[axis] > best.right.center()[axis]) {
             best.lowIsLeft = false;
@@ -240,9 +246,9 @@ class Order {
         return best;
     }
 
-    /// What a child with these bounds costs, for each of its primitives. Its box as reconstructed is what
-    /// rays meet, and what it can still become is what its own children start from: its box when cut once
-    /// more, and in the end the tight one.
+    /// Returns the cost of a child with these bounds, for each of its primitives. Rays meet its reconstructed
+    /// box. Its own children start from what it can still become: the box after one more cut, and in the end
+    /// the tight box.
     double cost(const Aabb& tight, const MvhBox& parent, const MvhCuts& cuts) const {
         const MvhBox box = cuts.child(parent, cuts.code(tight));
         const MvhCuts next(box, parameters_.rule);

@@ -1,4 +1,4 @@
-// Builds the trees of the mvh form: which primitives go left, and the codes of nodes.
+// Builds the trees of the mvh form: the primitives that go left, and the codes of nodes.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace bvhio {
 
-/// A primitive and its box, as builders move them around: two vectors of four lanes.
+/// A primitive and its box, which builders move around: two vectors of four lanes.
 struct alignas(16) MvhReference {
     Vec3 min;
     uint32_t primitive;
@@ -21,26 +21,26 @@ struct alignas(16) MvhReference {
 };
 static_assert(sizeof(MvhReference) == 32);
 
-/// The boxes of all triangles, in their order.
+/// Returns the references of all triangles, in order.
 std::vector<MvhReference> mvhReferences(const Scene& scene);
 
-/// Puts a run of references, 1 at least, into the order of a tree's leaves. `root` is the box that the tree's
-/// root will have; it contains every reference's. The paper's build halves by centroid along the longest axis
-/// of the node's box as reconstructed; the best build tries all axes, by centroid, low and high side, and
-/// keeps the split of least count * (area as reconstructed + the same when cut once more + 2 * tight area).
-/// Deterministic; parallel when the run is long, and fast: about 1 us a reference.
+/// Sorts a run of at least one reference into the order of a tree's leaves. `root` is the box of the tree's
+/// root, and contains every reference's box. The paper's build halves by centroid along the longest axis of
+/// the node's reconstructed box. The best build tries all axes, by centroid, low side and high side, and
+/// keeps the split with the least count * (reconstructed area + area after one more cut + 2 * tight area).
+/// Deterministic, parallel for long runs, and fast: about 1 us per reference.
 void orderMvh(std::span<MvhReference> run, const Aabb& root, const MvhParameters& parameters, MvhBuild build);
 
-/// The codes of a tree over a run that is in the order of its leaves. Holds no reference to the run.
+/// Computes the codes of a tree over a run that is in the order of its leaves. Does not refer to the run.
 class MvhCoder {
   public:
-    /// `root` is the box that the tree's root will have; it contains every reference's.
+    /// `root` is the box of the tree's root, and contains every reference's box.
     MvhCoder(std::span<const MvhReference> run, const Aabb& root, uint32_t leafSize);
 
-    /// A nibble for each inner node, one in each byte of `nibbles`, which has room for
-    /// MvhShape::innerCount() of them. Each child gets the code that leaves it the least.
+    /// Writes a nibble for each inner node, one in each byte of `nibbles`, which has space for
+    /// MvhShape::innerCount() bytes. Each child gets the code that gives the smallest box.
     void code(const MvhRule& rule, uint8_t* nibbles) const;
-    /// The SAH cost that the boxes would have, times the root's area.
+    /// Returns the SAH cost of the boxes, times the root's area.
     double cost(const MvhRule& rule) const;
 
   private:

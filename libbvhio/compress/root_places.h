@@ -1,4 +1,4 @@
-// Where the roots of many trees are put: what each takes over from above, as it does not store it.
+// The places of the roots of many trees: data that a tree takes from the level above, and does not store.
 #pragma once
 
 #include <algorithm>
@@ -9,17 +9,17 @@
 
 namespace bvhio {
 
-/// By tree.
+/// The arrays are indexed by tree.
 struct RootPlaces {
-    std::vector<InsetFrame> frames;    // what a ray's frame is made of: of each tree, or one that all share
+    std::vector<InsetFrame> frames;    // frames for rays: one for each tree, or one for all
     std::vector<Aabb> bounds;          // of the root
-    std::vector<InsetBox> insets;      // the same in its frame
-    std::vector<PrimitiveRange> runs;  // what is below the root, where nothing else tells
+    std::vector<InsetBox> insets;      // the bounds in the tree's frame
+    std::vector<PrimitiveRange> runs;  // the primitives below the root, if they are not stored elsewhere
 
     const InsetFrame& frame(size_t tree) const { return frames[frames.size() == 1 ? 0 : tree]; }
 
-    /// The box below the root that insets stand for. Insets of a box with full-precision planes may be a
-    /// little too small: what lies in the root's box counts.
+    /// Returns the box below the root that insets describe. Insets of a box with full-precision planes may be
+    /// slightly too small, so the result is limited to the root's box.
     Aabb floats(size_t tree, const InsetBox& box) const {
         const Aabb& root = bounds[tree];
         Aabb result = frame(tree).floats(box);

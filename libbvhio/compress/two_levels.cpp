@@ -5,12 +5,12 @@
 namespace bvhio {
 namespace {
 
-/// How many primitives are below each node.
+/// Returns the number of primitives below each node.
 Buffer<uint32_t> primitivesBelow(const Bvh& bvh) {
     Buffer<uint32_t> counts(bvh.nodes.size());
     for (size_t i = bvh.nodes.size(); i-- > 0;) {
         const Node& node = bvh.nodes[i];
-        // Wraps nowhere: all leaves' counts sum to the number of references, which is a uint32_t.
+        // This cannot overflow: the sum over all leaves is the number of references, which is a uint32_t.
         counts[i] = node.isLeaf() ? node.primitiveCount
                     : i == 1      ? 0
                                   : counts[node.left()] + counts[node.right()];
@@ -25,7 +25,7 @@ TwoLevels cutTree(const Bvh& bvh, uint32_t maxSize) {
     const Buffer<uint32_t> counts = primitivesBelow(bvh);
     const auto isCut = [&](size_t i) { return counts[i] <= maxSize || bvh.nodes[i].isLeaf(); };
 
-    // The tree that each pair is in, or that it is above the cut; and where it goes.
+    // Find the tree of each pair, or kTop if the pair is above the cut, and the pair's place in it.
     constexpr uint32_t kTop = ~0u;
     Buffer<uint32_t> treeOf(slots / 2), placeOf(slots / 2);
     std::vector<uint32_t> pairsOfTree;
@@ -42,6 +42,8 @@ TwoLevels cutTree(const Bvh& bvh, uint32_t maxSize) {
         }
         if (!node.isLeaf()) treeOf[node.left() / 2] = tree;
     }
+
+    // Turn the counts of pairs into the first pair of each tree.
     const size_t trees = pairsOfTree.size();
     uint32_t bottomPairs = 0;
     for (uint32_t& pairs : pairsOfTree) {
@@ -50,6 +52,7 @@ TwoLevels cutTree(const Bvh& bvh, uint32_t maxSize) {
         pairs = first;
     }
 
+    // Copy the nodes to their places.
     Buffer<Node> top(2 * size_t(topPairs)), roots(trees), nodes(2 * size_t(bottomPairs));
     top[1] = {};
     uint32_t tree = 0;

@@ -7,7 +7,7 @@
 namespace bvhio {
 namespace {
 
-/// What is odd about a scene but no fault of the file.
+/// Adds warnings: odd properties of a scene that are not faults of the file.
 void addWarnings(const Scene& scene, std::vector<Finding>& findings) {
     const auto warn = [&](FindingId id, size_t count, const std::string& what) {
         if (count > 0)
@@ -35,7 +35,7 @@ std::vector<Finding> check(ByteSource& source) {
         if (findings.empty()) addWarnings(file.scene, findings);
     } catch (const FindingError& error) {
         findings.push_back(error.finding());
-        // A content that makes no sense may stand in a sound container, or in one with more to say.
+        // If the content is invalid, the container may be valid, or have findings of its own.
         if (error.finding().id >= FindingId::unknownCriticalChunk) try {
                 container->drain();
             } catch (const FindingError& later) {

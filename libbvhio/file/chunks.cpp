@@ -48,8 +48,8 @@ const ChunkHeader& ChunkSequence::peek() {
         const ChunkHeader header = *reader_.nextHeader();
         if (const ChunkKind* kind = findChunkKind(header.type)) {
             if (header.type != kEndType && header.flags != kind->flags)
-                fail(FindingId::chunkFlags, "the flags are " + std::to_string(header.flags) + ", not " +
-                                                std::to_string(kind->flags));
+                fail(FindingId::chunkFlags, "the flags are " + std::to_string(header.flags) +
+                                                ", but must be " + std::to_string(kind->flags));
             if (std::find(seen_.begin(), seen_.end(), header.type) != seen_.end())
                 fail(FindingId::chunkRepeated, "the chunk appears twice");
             seen_.push_back(header.type);
@@ -78,10 +78,10 @@ bool ChunkSequence::nextIs(uint32_t type) {
 
 Bytes ChunkSequence::expect(uint32_t type, uint64_t size) {
     if (peek().type != type)
-        fail(FindingId::chunkExpected, "chunk " + chunkTypeName(type) + " should be here");
+        fail(FindingId::chunkExpected, "chunk " + chunkTypeName(type) + " is expected here");
     if (size != kAnySize && next_->rawSize != size)
         fail(FindingId::chunkSize, "the payload has " + std::to_string(next_->rawSize) +
-                                       " bytes, the counts ask for " + std::to_string(size));
+                                       " bytes, but the counts require " + std::to_string(size));
     next_.reset();
     return reader_.payload();
 }

@@ -1,4 +1,4 @@
-// The chunk CLUS beside an aabb tree, which says how its pairs lie in clusters: format-spec/clusters.md.
+// Chunk CLUS, which follows an aabb tree and maps its pairs to clusters: format-spec/clusters.md.
 #pragma once
 
 #include "file/chunks.h"
@@ -6,9 +6,10 @@
 
 namespace bvhio {
 
-/// Writes nothing for an empty map.
+/// Writes the chunk, or nothing if the map is empty.
 void writeClusters(ContainerWriter& writer, const SlotMap& slots);
-/// Reads the chunk, which is the next one, to bvh.slots; throws FindingError unless it fits the tree.
+/// Reads the chunk, which must be the next one, into bvh.slots. Throws FindingError if it does not match the
+/// tree.
 void readClusters(ChunkSequence& chunks, Bvh& bvh);
 
 }  // namespace bvhio

@@ -5,11 +5,11 @@
 
 namespace bvhio {
 
-/// `scene` is the one that a reader will see.
+/// Writes the chunks of a tree. `scene` is the scene that a reader will see.
 void writeTree(ContainerWriter& writer, const EncodedBvh& bvh, const SahCosts& costs, const Scene& scene,
                NodeEncoding encoding);
 
-/// The tree with its boxes fitted to the scene's vertices, which moved.
+/// Returns the tree with boxes fitted to the scene's vertices, which have moved.
 EncodedBvh refitTo(const EncodedBvh& bvh, const Scene& scene);
 
 struct StoredTree {
@@ -17,7 +17,7 @@ struct StoredTree {
     SahCosts costs;
 };
 
-/// Reads a tree over the scene's triangles; throws FindingError unless it is valid.
+/// Reads a tree over the scene's triangles. Throws FindingError if it is not valid.
 StoredTree readTree(ChunkSequence& chunks, const Scene& scene);
 
 }  // namespace bvhio

@@ -20,13 +20,14 @@ std::vector<SceneMesh> readMeshes(ChunkSequence& chunks, uint32_t count,
             for (const Geometry& g : geometries.subspan(geometry, meshes[i].geometryCount))
                 triangles += g.triangleCount;
         if (triangles == 0)
-            chunks.fail(FindingId::meshRuns,
-                        "mesh " + std::to_string(i) + " has no triangles, or geometries that do not exist");
+            chunks.fail(FindingId::meshRuns, "mesh " + std::to_string(i) +
+                                                 " has no triangles, or has geometries that do not exist");
         geometry += meshes[i].geometryCount;
     }
     if (geometry != geometries.size())
         chunks.fail(FindingId::meshRuns, "the meshes have " + std::to_string(geometry) +
-                                             " geometries, the scene " + std::to_string(geometries.size()));
+                                             " geometries, but the scene has " +
+                                             std::to_string(geometries.size()));
     return meshes;
 }
 
@@ -51,7 +52,7 @@ void readInstances(ChunkSequence& chunks, const InstanceCounts& counts, Scene& s
     const Bytes payload = chunks.expect(kInstancesType, uint64_t(counts.instances) * kInstanceSize);
     ByteReader reader(payload, "chunk INST");
     scene.instances.resize(counts.instances);
-    uint64_t geometry = 0;  // the first that the next instance may have
+    uint64_t geometry = 0;  // the first geometry that the next instance may have
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         SceneInstance& instance = scene.instances[i];
         for (float& number : instance.objectToWorld) number = reader.f32();
@@ -63,13 +64,14 @@ void readInstances(ChunkSequence& chunks, const InstanceCounts& counts, Scene& s
             chunks.fail(FindingId::instanceTransform,
                         "the transform of " + name + " is not finite or cannot be inverted");
         if (instance.mesh >= scene.meshes.size())
-            chunks.fail(FindingId::instances, name + " places mesh " + std::to_string(instance.mesh) +
-                                                  " of " + std::to_string(scene.meshes.size()));
+            chunks.fail(FindingId::instances, name + " refers to mesh " + std::to_string(instance.mesh) +
+                                                  ", but there are only " +
+                                                  std::to_string(scene.meshes.size()));
         const uint64_t end = uint64_t(instance.firstGeometry) + scene.meshes[instance.mesh].geometryCount;
         if (instance.firstGeometry < geometry || end > 0xFFFFFFFF)
-            chunks.fail(FindingId::instances, "the geometries of " + name + ", from " +
-                                                  std::to_string(instance.firstGeometry) +
-                                                  " on, are the previous instance's too, or beyond 2^32");
+            chunks.fail(FindingId::instances,
+                        "the geometries of " + name + ", from " + std::to_string(instance.firstGeometry) +
+                            " on, overlap those of the previous instance, or exceed 2^32");
         geometry = end;
     }
     try {

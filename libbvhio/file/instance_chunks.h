@@ -1,4 +1,4 @@
-// The chunks of an instanced scene: its meshes and where they stand (format-spec/instances.md).
+// The chunks of an instanced scene: its meshes and its instances (format-spec/instances.md).
 #pragma once
 
 #include "file/chunks.h"
@@ -6,15 +6,15 @@
 
 namespace bvhio {
 
-/// What SCEN says of them.
+/// The counts in chunk SCEN.
 struct InstanceCounts {
     uint32_t meshes = 0, instances = 0;
 };
 
 void writeInstances(ContainerWriter& writer, const Scene& scene);
 
-/// Adds meshes and instances to a scene that has its triangles and geometries; throws FindingError unless
-/// they keep every promise of scene/scene.h.
+/// Reads meshes and instances into a scene that has its triangles and geometries. Throws FindingError if they
+/// break a rule of scene/scene.h.
 void readInstances(ChunkSequence& chunks, const InstanceCounts& counts, Scene& scene);
 
 }  // namespace bvhio

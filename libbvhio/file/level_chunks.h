@@ -1,4 +1,4 @@
-// How each form is stored as a level of the two-level form: format-spec/two-level.md.
+// The storage of each form as a level of the two-level form: format-spec/two-level.md.
 #pragma once
 
 #include <array>
@@ -11,42 +11,43 @@
 
 namespace bvhio {
 
-/// How a level is stored: specialised for each, with
-/// - kCode: FORM's tlasForm or blasForm,
-/// - kNodesChunk, kNodeSize: what its nodes are,
-/// - write(writer, level): its chunks, the nodes last,
-/// - read(chunks, counts): reads those; throws FindingError unless the level can be decoded, be it to
-/// nonsense.
+/// The storage of a level. There is a specialisation for each form, with
+///
+/// - kCode: tlasForm or blasForm of FORM,
+/// - kNodesChunk, kNodeSize: the chunk of its nodes, and the size of a node,
+/// - write(writer, level): writes its chunks, the nodes last,
+/// - read(chunks, counts): reads these. Throws FindingError if the level cannot be decoded. The decoded level
+///   need not be valid.
 template <class Level>
 struct LevelChunks;
 
-/// What FORM says of both levels.
+/// The counts and parameters of both levels in FORM.
 struct LevelCounts {
     uint64_t references = 0, tlasSlots = 0, blases = 0, blasSlots = 0;
-    bool areRuns = false;               // leaves of the top level own primitives, not the index of a BLAS
+    bool areRuns = false;               // whether leaves of the top level own primitives, instead of a BLAS
     Aabb bounds{{0, 0, 0}, {0, 0, 0}};  // of a quantized top level's root
     uint32_t bits = 0;                  // of a quantized level
     uint32_t leafSize = 0;              // of mvh BLASes
 };
 
-/// Throws unless a leaf of the top level names a BLAS, or primitives.
+/// Throws if a leaf of the top level does not refer to a BLAS, or to primitives.
 inline void checkLeaf(const ChunkSequence& chunks, const std::string& name, PrimitiveRange leaf,
                       const LevelCounts& counts) {
     if (counts.areRuns ? uint64_t(leaf.first) + leaf.count > counts.references
                        : leaf.count != 1 || leaf.first >= counts.blases)
         chunks.fail(FindingId::leafRange,
-                    name + " of the top level names " + std::to_string(leaf.count) +
+                    name + " of the top level refers to " + std::to_string(leaf.count) +
                         (counts.areRuns ? " entries from " : " BLASes from ") + std::to_string(leaf.first) +
-                        " on: there are " +
+                        " on, but there are only " +
                         std::to_string(counts.areRuns ? counts.references : counts.blases));
 }
 
-/// Throws unless children start at an index in (parent, slots).
+/// Throws if children do not start at an index in (parent, slots).
 inline void checkChildren(const ChunkSequence& chunks, const std::string& parent, int64_t index,
                           uint32_t children, uint64_t slots) {
     if (int64_t(children) <= index || children >= slots)
-        chunks.fail(FindingId::childIndex, parent + " has its children at " + std::to_string(children) +
-                                               ": not behind it and below " + std::to_string(slots));
+        chunks.fail(FindingId::childIndex, parent + " has its children at index " + std::to_string(children) +
+                                               ", which is not after it and below " + std::to_string(slots));
 }
 
 inline std::string nodeName(size_t i) {
@@ -101,7 +102,7 @@ struct LevelChunks<QuantizedTlas> {
     }
     static QuantizedTlas read(ChunkSequence& chunks, const LevelCounts& counts) {
         if (counts.references > QuantizedRecord::kMaxReferences)
-            chunks.fail(FindingId::treeCounts, "a quantized top level is over at most 2^29 references");
+            chunks.fail(FindingId::treeCounts, "a quantized top level has at most 2^29 references");
         OfForm::checkBounds(chunks, counts.bounds);
         const size_t count = counts.tlasSlots / 2 - 1;
         if (count == 0 && counts.areRuns && counts.references > QuantizedRecord::kMaxLeafSize)
@@ -118,7 +119,7 @@ struct LevelChunks<QuantizedTlas> {
                               counts);
             }
         }
-        // A root that is a leaf owns all there is.
+        // A root that is a leaf owns everything.
         return QuantizedTlas(QuantizedForm(counts.bounds, counts.bits, std::move(records),
                                            std::vector<uint32_t>(count > 0        ? 0
                                                                  : counts.areRuns ? counts.references
@@ -130,7 +131,7 @@ template <>
 struct LevelChunks<MvhBlases> {
     static constexpr uint32_t kCode = chunkType("mvh ");
     static constexpr uint32_t kNodesChunk = kBlasType;
-    static constexpr size_t kNodeSize = 0;  // no node is anywhere by itself
+    static constexpr size_t kNodeSize = 0;  // nodes are not stored one by one
 
     static void write(ContainerWriter& writer, const MvhBlases& blases) {
         writeArrayChunk(writer, kBlasType, blases.codes());
@@ -192,7 +193,8 @@ struct LevelChunks<SshBlases> {
     static void check(const ChunkSequence& chunks, const SshNode& node, const std::string& name,
                       int64_t index, uint64_t slots) {
         if (node.side() > 5 || (index < 0 && node.side() != 0))
-            chunks.fail(FindingId::nodeField, name + " names side " + std::to_string(node.side()));
+            chunks.fail(FindingId::nodeField,
+                        name + " has side " + std::to_string(node.side()) + ", which is not allowed");
         if (!node.isLeaf()) checkChildren(chunks, name, index, node.left(), slots);
     }
 };
@@ -216,13 +218,14 @@ struct LevelChunks<QuantizedBlases> {
         for (size_t i = 0; i < roots.size(); ++i) {
             const bool isLeaf = QuantizedRecord::isLeaf(roots[i].word);
             if (roots[i].more % 8 != 0 || roots[i].more > (isLeaf ? 0xFF : 0))
-                chunks.fail(FindingId::nodeField, blasName(i) + " has " + std::to_string(roots[i].more) +
-                                                      " for the higher bits of a leaf's size");
+                chunks.fail(FindingId::nodeField,
+                            blasName(i) + " has the value " + std::to_string(roots[i].more) +
+                                " as the higher bits of a leaf's size, which is not allowed");
             if (!isLeaf && QuantizedRecord::record(roots[i].word) >= count)
                 chunks.fail(FindingId::childIndex,
                             blasName(i) + " has its children in record " +
-                                std::to_string(QuantizedRecord::record(roots[i].word)) + ": not below " +
-                                std::to_string(count));
+                                std::to_string(QuantizedRecord::record(roots[i].word)) +
+                                ", but there are only " + std::to_string(count));
         }
         auto records = chunks.expectArray<QuantizedRecord>(kBlasType, count);
         for (size_t i = 0; i < count; ++i) OfForm::checkRecord(chunks, records[i], i, count, counts.bits);

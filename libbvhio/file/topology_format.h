@@ -1,4 +1,4 @@
-// What the writer and the reader of chunk TOPO share: its header and its streams.
+// The header and the streams of chunk TOPO, for its writer and its reader.
 #pragma once
 
 #include <array>
@@ -14,19 +14,19 @@ namespace bvhio {
 struct TopologyHeader {
     uint32_t order = 0;          // of pairs: kDepthFirst or kListed
     uint32_t ranges = 0;         // of leaves: kDepthFirst or kListed
-    uint32_t leafSizeBytes = 0;  // bytes of a leaf's size less one
-    uint64_t boxes = 0;          // that are not what a refit gives
+    uint32_t leafSizeBytes = 0;  // bytes that store a leaf's size minus 1
+    uint64_t boxes = 0;          // that differ from those of a refit
     uint64_t planes = 0;         // of those boxes
 };
 
 inline constexpr uint32_t kDepthFirst = 0, kListed = 1;
 inline constexpr size_t kTopologyHeaderSize = 64;
 
-/// Bytes of each of the streams behind the header, in file order.
+/// The bytes of each stream after the header, in file order.
 struct TopologySizes {
     uint64_t innerBits, parents, ranges, leafSizes, boxBits, boxSides, planes;
 
-    /// Of a tree with `slots` node slots, an even number of 2 or more.
+    /// Computes the sizes for a tree with `slots` node slots, an even number of at least 2.
     TopologySizes(const TopologyHeader& header, uint64_t slots)
         : innerBits((slots + 7) / 8),
           parents(header.order == kListed ? 4 * (slots / 2 - 1) : 0),
@@ -40,8 +40,8 @@ struct TopologySizes {
     }
 };
 
-/// Of a tree whose children lie behind their parents: where the ranges of each node's leaves start when they
-/// follow each other in a depth-first walk, left children first.
+/// Returns for each node of a tree whose children come after their parents the start of its leaves' ranges,
+/// if the ranges follow each other in a depth-first walk, left children first.
 inline std::vector<uint32_t> depthFirstRanges(std::span<const Node> nodes) {
     std::vector<uint32_t> counts(nodes.size()), firsts(nodes.size());
     for (size_t i = nodes.size(); i-- > 0;)
@@ -55,12 +55,13 @@ inline std::vector<uint32_t> depthFirstRanges(std::span<const Node> nodes) {
     return firsts;
 }
 
-/// A plane of a box: min x, y, z, then max x, y, z.
+/// Returns a plane of a box. The planes are min x, y, z, then max x, y, z.
 inline float& planeOf(Aabb& box, uint32_t side) {
     return side < 3 ? box.min[int(side)] : box.max[int(side) - 3];
 }
 
-/// Signed numbers as unsigned ones, small where those are: 0, -1, 1, -2 become 0, 1, 2, 3. Modulo 2^32.
+/// Maps signed numbers to unsigned ones, and small ones to small ones: 0, -1, 1, -2 become 0, 1, 2, 3. Modulo
+/// 2^32.
 constexpr uint32_t zigzag(uint32_t number) {
     return number << 1 ^ (number >> 31 != 0 ? ~0u : 0);
 }

@@ -18,7 +18,7 @@ bool bitOf(ByteSpan bits, size_t i) {
     return (uint32_t(bits[i / 8]) >> i % 8 & 1) != 0;
 }
 
-/// Number i of `count`, whose bytes are stored in planes.
+/// Returns number i of `count` numbers whose bytes are stored in planes.
 uint32_t numberOf(ByteSpan bytes, size_t count, uint32_t planes, size_t i) {
     uint32_t number = 0;
     for (uint32_t plane = 0; plane < planes; ++plane)
@@ -49,8 +49,8 @@ class TopologyReader {
     bool isInner(size_t node) const { return bitOf(innerBits_, node); }
     std::span<Node> nodes() { return {nodes_.data(), nodes_.size()}; }
 
-    /// The header, and where each stream lies: nothing is made room for before the payload has what it
-    /// promises.
+    /// Reads the header and finds each stream. No memory is allocated before the payload is known to have the
+    /// promised size.
     void readStreams() {
         if (payload_.size() < kTopologyHeaderSize)
             chunks_.fail(FindingId::chunkSize, "the payload is shorter than its header");
@@ -69,7 +69,7 @@ class TopologyReader {
         const TopologySizes sizes(header_, slots_);
         if (sizes.total() != payload_.size())
             chunks_.fail(FindingId::chunkSize, "the payload has " + std::to_string(payload_.size()) +
-                                                   " bytes, the counts ask for " +
+                                                   " bytes, but the counts require " +
                                                    std::to_string(sizes.total()));
         innerBits_ = reader.bytes(sizes.innerBits);
         parents_ = reader.bytes(sizes.parents);
@@ -79,13 +79,13 @@ class TopologyReader {
         boxSides_ = reader.bytes(sizes.boxSides);
         planes_ = reader.bytes(sizes.planes);
         if (countBits(innerBits_) != slots_ / 2 - 1)
-            fail(std::to_string(countBits(innerBits_)) + " inner nodes are no tree of " +
+            fail(std::to_string(countBits(innerBits_)) + " inner nodes cannot form a tree of " +
                  std::to_string(slots_) + " node slots");
         if (header_.boxes > 0 && countBits(boxBits_) != header_.boxes)
-            fail("the bits of stored boxes are not as many as the boxes");
+            fail("the number of set bits differs from the number of stored boxes");
     }
 
-    /// How many bits are set; those of slot 1 and behind the last slot are reserved.
+    /// Returns the number of set bits. The bits of slot 1 and after the last slot are reserved.
     uint64_t countBits(ByteSpan bits) const {
         if (bitOf(bits, 1) || (slots_ % 8 != 0 && uint32_t(bits.back()) >> slots_ % 8 != 0))
             chunks_.fail(FindingId::payloadReserved, "a reserved bit is not zero");
@@ -94,11 +94,11 @@ class TopologyReader {
         return count;
     }
 
-    /// Gives each pair to its parent: as many as there are inner nodes, so that none is left over.
+    /// Assigns each pair to its parent. There are as many pairs as inner nodes, so each inner node gets one.
     void placePairs() {
         const size_t pairs = slots_ / 2;
-        std::vector<uint8_t> depths(pairs);  // of a pair's nodes
-        std::vector<uint32_t> waiting;       // in depth-first order: for their children, the next one last
+        std::vector<uint8_t> depths(pairs);  // of the nodes of each pair
+        std::vector<uint32_t> waiting;       // inner nodes that wait for their children, the next one last
         if (isInner(0)) waiting.push_back(0);
         for (size_t pair = 1; pair < pairs; ++pair) {
             const auto left = uint32_t(2 * pair);
@@ -106,7 +106,7 @@ class TopologyReader {
             if (header_.order == kListed) {
                 const uint32_t distance = numberOf(parents_, pairs - 1, 4, pair - 1);
                 if (distance == 0 || distance > left || !isInner(left - distance))
-                    fail("node " + std::to_string(left) + " is no child of an inner node before it");
+                    fail("node " + std::to_string(left) + " is not a child of an inner node before it");
                 parent = left - distance;
                 if (nodes_[parent].first != 0)
                     fail("node " + std::to_string(parent) + " has two pairs of children");
@@ -120,8 +120,8 @@ class TopologyReader {
             nodes_[parent].first = left;
             depths[pair] = uint8_t(depths[parent / 2] + 1);
             if (depths[pair] > kMaxDepth)
-                chunks_.fail(FindingId::depth, "node " + std::to_string(left) + " is deeper than " +
-                                                   std::to_string(kMaxDepth) + " edges");
+                chunks_.fail(FindingId::depth, "node " + std::to_string(left) + " is more than " +
+                                                   std::to_string(kMaxDepth) + " edges below the root");
         }
     }
 
@@ -132,14 +132,16 @@ class TopologyReader {
             if (i == 1 || isInner(i)) continue;
             const uint32_t size = numberOf(leafSizes_, leaves, header_.leafSizeBytes, leaf++) + 1;
             if (size > kMaxLeafSize)
-                chunks_.fail(FindingId::leafRange,
-                             "leaf " + std::to_string(i) + " has " + std::to_string(size) + " primitives");
+                chunks_.fail(FindingId::leafRange, "leaf " + std::to_string(i) + " has " +
+                                                       std::to_string(size) + " primitives, but at most " +
+                                                       std::to_string(kMaxLeafSize) + " are allowed");
             nodes_[i].primitiveCount = size;
             sum += size;
         }
         if (sum != references_)
             chunks_.fail(FindingId::leafCover, "the leaves have " + std::to_string(sum) +
-                                                   " primitives, the tree " + std::to_string(references_));
+                                                   " primitives, but the tree has " +
+                                                   std::to_string(references_));
         const std::vector<uint32_t> firsts = depthFirstRanges(nodes());
         for (size_t i = 0, leaf = 0; i < slots_; ++i) {
             Node& node = nodes_[i];
@@ -148,20 +150,21 @@ class TopologyReader {
             if (header_.ranges == kListed) node.first += fromZigzag(numberOf(ranges_, leaves, 4, leaf++));
             if (node.first > references_ - node.primitiveCount)
                 chunks_.fail(FindingId::leafRange,
-                             "the range of leaf " + std::to_string(i) + " leaves the primitives");
+                             "the range of leaf " + std::to_string(i) + " exceeds the array of primitives");
         }
     }
 
-    /// Bottom-up, and so through the stored boxes from the last to the first.
+    /// Computes the boxes bottom-up, and so goes through the stored boxes from the last to the first.
     void fitBoxes(std::span<const uint32_t> primitives, const Scene& scene) {
         std::array<uint64_t, 6> ends{};  // of each side's planes
         for (const std::byte sides : boxSides_) {
             if (sides == std::byte{0} || uint32_t(sides) > 63)
-                fail("a stored box names a side that there is not");
+                fail("a stored box has no side, or a side that does not exist");
             for (uint32_t side = 0; side < 6; ++side) ends[side] += uint32_t(sides) >> side & 1;
         }
         for (uint32_t side = 1; side < 6; ++side) ends[side] += ends[side - 1];
-        if (ends[5] != header_.planes) fail("the stored boxes have more planes than are stored, or fewer");
+        if (ends[5] != header_.planes)
+            fail("the number of stored planes differs from that of the stored boxes");
 
         fitLeaves(nodes(), primitives, boundsOfTriangles(scene));
         size_t box = header_.boxes;

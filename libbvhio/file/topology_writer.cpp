@@ -14,19 +14,20 @@ void setBit(ByteString& bits, size_t i) {
     bits[i / 8] |= std::byte(1u << i % 8);
 }
 
-/// Each number's lowest byte, then each one's next: the high ones are mostly alike, and squeeze well.
+/// Appends the lowest byte of each number, then the second byte of each, and so on. High bytes are mostly
+/// equal, and compress well.
 void appendBytePlanes(ByteString& bytes, std::span<const uint32_t> numbers, uint32_t planes) {
     for (uint32_t plane = 0; plane < planes; ++plane)
         for (const uint32_t number : numbers) bytes.push_back(std::byte(number >> 8 * plane));
 }
 
-/// How far in front of each pair its parent lies; nothing when pairs are in depth-first order.
+/// Returns the distance of each pair from its parent before it; nothing if pairs are in depth-first order.
 std::vector<uint32_t> parentDistances(std::span<const Node> nodes) {
     std::vector<uint32_t> distances(nodes.size() / 2 - 1), waiting;
     bool depthFirst = true;
     if (!nodes[0].isLeaf()) waiting.push_back(0);
     for (uint32_t left = 2; left < nodes.size(); left += 2) {
-        // In another order the stack of those who wait is soon wrong, and no longer asked.
+        // In another order the stack of waiting nodes soon becomes wrong, and is not used any more.
         if (depthFirst) {
             depthFirst = nodes[waiting.back()].left() == left;
             waiting.pop_back();
@@ -40,7 +41,8 @@ std::vector<uint32_t> parentDistances(std::span<const Node> nodes) {
     return distances;
 }
 
-/// Where each leaf's range starts, against where a depth-first walk would have it; nothing when it does.
+/// Returns the difference between the start of each leaf's range and its start in a depth-first walk; nothing
+/// if all are 0.
 std::vector<uint32_t> rangeDifferences(std::span<const Node> nodes) {
     const std::vector<uint32_t> firsts = depthFirstRanges(nodes);
     std::vector<uint32_t> differences;
@@ -53,7 +55,7 @@ std::vector<uint32_t> rangeDifferences(std::span<const Node> nodes) {
     return differ ? differences : std::vector<uint32_t>();
 }
 
-/// The boxes that are not what a refit gives.
+/// The boxes that differ from those of a refit.
 struct StoredBoxes {
     ByteString bits, sides;
     std::array<std::vector<uint32_t>, 6> planes;

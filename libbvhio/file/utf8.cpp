@@ -5,7 +5,7 @@
 namespace bvhio {
 namespace {
 
-/// The length of the well-formed character that `text`, which is not empty, starts with; 0 when there is
+/// Returns the length of the well-formed character at the start of `text`, which is not empty; 0 if there is
 /// none.
 size_t characterLength(std::string_view text) {
     const auto byte = [&](size_t i) { return i < text.size() ? uint8_t(text[i]) : 0u; };

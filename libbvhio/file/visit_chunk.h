@@ -6,8 +6,8 @@
 
 namespace bvhio {
 
-/// Reads the visits of a tree in the aabb form, whose chunks were read just before; empty without the chunk.
-/// Throws FindingError unless no pair has more than the one that holds its parent.
+/// Reads the visits of a tree in the aabb form, whose chunks were read just before. Returns nothing if there
+/// is no such chunk. Throws FindingError if a pair has more visits than the pair that holds its parent.
 SharedArray<uint32_t> readVisits(ChunkSequence& chunks, const Bvh& bvh);
 
 }  // namespace bvhio

@@ -5,23 +5,22 @@
  * C++. The page libbvhio/api/README.md shows it in ten minutes.
  *
  * HANDLES. A BvhioContainer is a scene and its tree, from a file or made by a pass. A BvhioScene is a scene
- * alone. A BvhioTracer shoots rays at a container. All three are immutable: a pass takes a container and
- * makes another. What they have in common they share, so that a pass which reorders nodes copies no triangle.
- * Each handle that a function gives you is yours to close, once, in any order: a tracer keeps what it needs
- * of its container.
+ * alone. A BvhioTracer traces rays through a container. All three are immutable: a pass takes a container and
+ * makes another. Containers share equal arrays, so a pass that reorders nodes copies no triangles. Close each
+ * handle that a function gives you, once, in any order: a tracer keeps what it needs of its container.
  *
  * POINTERS that a function gives you belong to the handle that you passed, stay valid until that handle is
  * closed, and are read-only. Text is UTF-8 and ends with a zero byte. Arrays that you pass are copied, with
  * one exception: bvhioOpenMemory uses your bytes in place.
  *
- * THREADS. Any function may be called from any thread at any time, on the same handle too; only the close
- * functions need that nobody else still uses the handle. The library has no global settings. Where a function
- * uses several threads, you say for each call how many at most.
+ * THREADS. Any function may be called from any thread at any time, also on the same handle. The only exception
+ * are the functions that close a handle: nobody else may still use it. The library has no global settings. For
+ * functions that use several threads, each call states their maximum number.
  *
- * ERRORS. Functions return a BvhioStatus. When that is not BVHIO_OK, nothing was made, handles that were to
- * be given are set to NULL, and bvhioLastError says what happened, in one line. No C++ exception leaves the
- * library. A handle that you pass may be NULL only where a function says so; elsewhere the status is
- * BVHIO_USAGE.
+ * ERRORS. Functions return a BvhioStatus. If it is not BVHIO_OK, the function made nothing, sets the handles
+ * that it would have given to NULL, and bvhioLastError says what is wrong, in one line. No C++ exception leaves
+ * the library. A handle that you pass may be NULL only if the function's comment says so; otherwise the status
+ * is BVHIO_USAGE.
  *
  * UNITS. Coordinates are 32-bit floats in the scene's own unit. Sizes are in bytes. Counts are in elements: a
  * vertex is three floats, a triangle three 32-bit indices. Costs are in the arbitrary unit of the surface
@@ -60,8 +59,7 @@ extern "C" {
 #define BVHIO_VERSION_PATCH 0
 #define BVHIO_VERSION (BVHIO_VERSION_MAJOR * 10000 + BVHIO_VERSION_MINOR * 100 + BVHIO_VERSION_PATCH)
 
-/* [reader] The version of the library that runs, as BVHIO_VERSION counts: compare it with that of the header.
- */
+/* [reader] The version of the library that runs, as a number like BVHIO_VERSION: compare the two. */
 BVHIO_API uint32_t bvhioVersion(void);
 
 /* [reader] The same as text, such as "0.1.0". Lives as long as the program. */
@@ -72,7 +70,7 @@ BVHIO_API const char* bvhioVersionText(void);
 /* How a function ended. Values 1 to 5 are the exit codes of the command-line tools. */
 typedef enum BvhioStatus {
     BVHIO_OK = 0,
-    BVHIO_USAGE = 1,       /* an argument or option that makes no sense */
+    BVHIO_USAGE = 1,       /* a wrong argument or option */
     BVHIO_IO = 2,          /* a missing file, a full disk, no permission */
     BVHIO_INVALID = 3,     /* damaged or meaningless data */
     BVHIO_RESOURCES = 4,   /* out of memory, or of threads */
@@ -80,12 +78,12 @@ typedef enum BvhioStatus {
     BVHIO_CANCELLED = 6    /* your progress callback asked for it */
 } BvhioStatus;
 
-/* [reader] What made the last function fail that failed on this thread: one line, without a full stop. ""
- * when none failed yet. Valid until the next failure on this thread; messages over 1000 bytes are cut. */
+/* [reader] Why the last failed call on this thread failed: one line, without a full stop; "" if no call has
+ * failed. Valid until the next failure on this thread. Messages over 1000 bytes are cut. */
 BVHIO_API const char* bvhioLastError(void);
 
-/* [reader] When that failure was a numbered finding about a file, its number; else 0. The page
- * format-spec/diagnostics.md lists all findings. */
+/* [reader] The number of the finding, if that failure was a numbered finding about a file; otherwise 0. The
+ * page format-spec/diagnostics.md lists all findings. */
 BVHIO_API uint32_t bvhioLastFinding(void);
 
 /* [reader] A status as a word, such as "invalid". Lives as long as the program. */
@@ -93,17 +91,17 @@ BVHIO_API const char* bvhioStatusName(BvhioStatus status);
 
 /* ---- How functions run ----------------------------------------------------- */
 
-/* Hears how far a pass has come: `done` of `total`, in a unit of the pass's own; `total` may change, and is 0
- * while it is unknown. Return 0 to go on. Anything else cancels the pass, which ends soon after with
- * BVHIO_CANCELLED. The callback runs on threads of the pass, not always the same, but one call at a time. It
- * must not call bvhio functions that take the same callback, and must not throw or jump out. */
+/* Receives the progress of a pass: `done` of `total`, in a unit that depends on the pass. `total` may change,
+ * and is 0 while it is unknown. Return 0 to continue. Any other value cancels the pass, which ends soon after
+ * with BVHIO_CANCELLED. The callback runs on threads of the pass: not always on the same thread, but one call at
+ * a time. It must not call bvhio functions that take the same callback, and must not throw or jump out. */
 typedef int (*BvhioProgress)(void* user, uint64_t done, uint64_t total);
 
-/* How one call runs. Where a function takes a context, NULL means all zeros. */
+/* How one call runs. A context of NULL means all zeros. */
 typedef struct BvhioContext {
-    uint32_t threads;       /* at most so many, yours among them; 0: all of the machine's */
-    BvhioProgress progress; /* NULL: nobody listens */
-    void* progressUser;     /* handed to `progress` */
+    uint32_t threads;       /* maximum number of threads, including yours; 0: all of the machine's */
+    BvhioProgress progress; /* NULL: no progress is reported */
+    void* progressUser;     /* the first argument of `progress` */
     const char* program; /* your program's name, for the history in files that it saves; NULL: "libbvhio" */
     const char* programVersion; /* NULL: "" with a program of your own */
 } BvhioContext;
@@ -122,20 +120,19 @@ typedef struct BvhioContainer BvhioContainer;
 
 /* [reader] Opens a file. A regular file is mapped: arrays that are stored with codec none are used in place,
  * and pages are read when they are touched. Do not cut or overwrite it in place while the container is open;
- * replacing it by a rename is safe. After a checked open (flags 0) the content is valid throughout. Errors:
- * BVHIO_IO; BVHIO_INVALID and BVHIO_UNSUPPORTED with a finding. `context` may be NULL; of it only `threads`
- * counts. */
+ * replacing it by a rename is safe. After a checked open (flags 0) all content is valid. Errors: BVHIO_IO;
+ * BVHIO_INVALID and BVHIO_UNSUPPORTED, with a finding. `context` may be NULL; only its `threads` is used. */
 BVHIO_API BvhioStatus bvhioOpenFile(const char* path, uint32_t flags, const BvhioContext* context,
                                     BvhioContainer** container);
 
 /* [reader] Opens a container that is a part of a larger file: `length` bytes from `offset` on; length 0 means
- * up to the file's end. Any offset will do; at multiples of 64 arrays are used in place, elsewhere they are
+ * up to the file's end. Any offset is allowed; at a multiple of 64 arrays are used in place, otherwise they are
  * copied. */
 BVHIO_API BvhioStatus bvhioOpenFileRange(const char* path, uint64_t offset, uint64_t length, uint32_t flags,
                                          const BvhioContext* context, BvhioContainer** container);
 
-/* [reader] Opens a container in memory, in place: keep the bytes unchanged until the container, and all that
- * was made from it (tracers, results of passes), are closed. At addresses that are multiples of 64 arrays
+/* [reader] Opens a container in memory, in place. Keep the bytes unchanged until the container, and everything
+ * made from it (tracers, results of passes), is closed. At an address that is a multiple of 64, arrays that are
  * stored with codec none are not copied. */
 BVHIO_API BvhioStatus bvhioOpenMemory(const void* bytes, size_t size, uint32_t flags,
                                       const BvhioContext* context, BvhioContainer** container);
@@ -144,13 +141,13 @@ BVHIO_API BvhioStatus bvhioOpenMemory(const void* bytes, size_t size, uint32_t f
 BVHIO_API void bvhioClose(BvhioContainer* container);
 
 /* [reader] Receives one finding about a file. `id` is its number, `isError` is 0 for a warning; `chunk` is
- * the four-letter type of the chunk, "" for the file; `offset` is the byte in the file and `node` the node at
- * fault, UINT64_MAX where there is none. Texts are valid during the call. */
+ * the four-letter type of the chunk, "" for the file; `offset` is the byte in the file and `node` the faulty
+ * node, each UINT64_MAX if there is none. Texts are valid during the call. */
 typedef void (*BvhioFindingCallback)(void* user, uint32_t id, int isError, const char* message,
                                      const char* chunk, uint64_t offset, uint64_t node);
 
-/* [reader] Reports everything that is wrong with a file, at most 8 findings of a kind, where an open would
- * stop at the first one. BVHIO_OK means that the file could be looked at, whatever was found. */
+/* [reader] Reports everything that is wrong with a file, with at most 8 findings of a kind; an open stops at the
+ * first finding. BVHIO_OK means that the file could be examined, whatever was found. */
 BVHIO_API BvhioStatus bvhioCheckFile(const char* path, const BvhioContext* context,
                                      BvhioFindingCallback found, void* user);
 BVHIO_API BvhioStatus bvhioCheckMemory(const void* bytes, size_t size, const BvhioContext* context,
@@ -167,7 +164,7 @@ typedef struct BvhioInfo {
     uint64_t instanceCount; /* 0 in a plain scene */
     uint64_t
         primitiveCount;   /* what rays can hit: triangles of all instances; in a plain scene triangleCount */
-    uint64_t treeCount;   /* trees that bvhioTree gives: 1, or in an instanced scene 1 + meshCount */
+    uint64_t treeCount;   /* trees that bvhioGetTree gives: 1; in an instanced scene 1 + meshCount */
     uint64_t nodeBytes;   /* of the nodes in memory, in the form they are stored in */
     uint64_t contentHash; /* of the content, codecs left aside; 0 unless the container was opened */
     const char* form;     /* how nodes are stored, such as "aabb" or "quantized" */
@@ -207,7 +204,7 @@ typedef struct BvhioMesh {
     uint32_t firstTriangle, triangleCount;
 } BvhioMesh;
 
-/* A mesh where it stands. */
+/* A placed mesh. */
 typedef struct BvhioInstance {
     float objectToWorld[12]; /* the upper 3 x 4 of an affine matrix, row by row: from the mesh's space to the
                                 world */
@@ -216,7 +213,7 @@ typedef struct BvhioInstance {
         firstGeometry; /* the numbers that its first triangle and geometry have in hits */
 } BvhioInstance;
 
-/* A step of the container's history: who made it, with which options. */
+/* An entry of the container's history: which program changed it, with which options. */
 typedef struct BvhioHistory {
     const char* program; /* such as "bvh-build" */
     const char* version;
@@ -239,8 +236,8 @@ BVHIO_API BvhioStatus bvhioGetVertices(const BvhioContainer* container, const fl
 BVHIO_API BvhioStatus bvhioGetTriangles(const BvhioContainer* container, const uint32_t** indices,
                                         uint64_t* count);
 
-/* [reader] The number of each triangle within its geometry in the source. NULL and 0 where triangles are
- * simply numbered in order. */
+/* [reader] The number of each triangle within its geometry in the source. NULL and 0 if triangles are numbered
+ * in order. */
 BVHIO_API BvhioStatus bvhioGetSourceIds(const BvhioContainer* container, const uint32_t** ids,
                                         uint64_t* count);
 
@@ -249,7 +246,7 @@ typedef struct BvhioNode {
     float min[3], max[3]; /* the box: finite, min <= max */
     uint32_t first; /* inner node: index of its left child, the right one is first + 1; leaf: of its first
                        primitive */
-    uint32_t count; /* 0 for an inner node; for a leaf how many primitives it has */
+    uint32_t count; /* inner node: 0; leaf: its number of primitives */
 } BvhioNode;
 
 /* A tree. nodes[0] is the root and nodes[1] is unused. Children lie behind their parent, so a loop from the
@@ -270,13 +267,13 @@ typedef struct BvhioTree {
  * boxes as the form has them, and kept until the container is closed. */
 BVHIO_API BvhioStatus bvhioGetTree(const BvhioContainer* container, uint64_t index, BvhioTree* tree);
 
-/* What a hit's `primitive` number stands for. */
+/* A primitive: a triangle, or a triangle of an instance. */
 typedef struct BvhioPrimitive {
-    uint32_t geometry;   /* as hits number geometries: through all instances */
-    uint32_t sourceId;   /* which triangle of the geometry, in source order */
+    uint32_t geometry;   /* numbered through all instances, as in hits */
+    uint32_t sourceId;   /* the triangle's number within the geometry, in source order */
     uint32_t instance;   /* 0 in a plain scene */
     uint32_t triangle;   /* its index among the triangles */
-    float corners[3][3]; /* where it stands in the world */
+    float corners[3][3]; /* in the world */
 } BvhioPrimitive;
 
 /* [reader] Fills `primitive` for the number that bvhioTraceClosest gave, below BvhioInfo::primitiveCount. */
@@ -297,12 +294,12 @@ typedef struct BvhioRay {
     float tMax; /* may be infinite */
 } BvhioRay;
 
-/* Where a ray hits, 24 bytes, as in a .hits file. u and v are the weights of the triangle's second and third
- * corner. The three ids stay the same whatever tree or form the scene has. A miss has t infinite, u = v = 0
- * and all ids BVHIO_NOTHING. */
+/* A hit, 24 bytes, as in a .hits file. u and v are the barycentric weights of the triangle's second and third
+ * corner. The three ids do not depend on the scene's tree or form. A miss has t infinite, u = v = 0 and all ids
+ * BVHIO_NOTHING. */
 typedef struct BvhioHit {
     float t, u, v;
-    uint32_t primitive; /* which triangle of the geometry, in source order */
+    uint32_t primitive; /* the triangle's number within the geometry, in source order */
     uint32_t geometry;
     uint32_t instance; /* 0 in a plain scene */
 } BvhioHit;
@@ -313,35 +310,34 @@ typedef struct BvhioTracer BvhioTracer;
 
 /* Flags of bvhioCreateTracer. */
 
-/* Tests triangles where the scene has them, through their indices: rays take about twice the time, but
- * nothing is copied first. Without it the tracer makes a copy of the triangles for tracing, 48 bytes for
- * each. */
+/* Tests the scene's own triangles, through their indices: rays take about twice the time, but nothing is
+ * copied. Without this flag the tracer makes a copy of the triangles for tracing, 48 bytes per triangle. */
 #define BVHIO_NO_COPY 1u
 
-/* [reader] Prepares a container for tracing. The tracer keeps the container's content alive by itself.
- * `context` may be NULL; of it only `threads` counts, for the copy. */
+/* [reader] Prepares a container for tracing. The tracer keeps the container's content alive. `context` may be
+ * NULL; only its `threads` is used, for the copy. */
 BVHIO_API BvhioStatus bvhioCreateTracer(const BvhioContainer* container, uint32_t flags,
                                         const BvhioContext* context, BvhioTracer** tracer);
 
 /* [reader] Frees a tracer. NULL is allowed. */
 BVHIO_API void bvhioDestroyTracer(BvhioTracer* tracer);
 
-/* [reader] Finds the closest hit of each of `count` rays; of hits at the same t it takes the lowest
- * primitive. `hits` has room for `count`; `primitives` too, or is NULL: it receives the number of what was
- * hit, which in a plain scene is the triangle's index, and BVHIO_NOTHING for a miss. At most `threads`
- * threads trace, yours among them; 0: all. Hits are the same, to the bit, for every tree, form, processor and
- * number of threads. */
+/* [reader] Finds the closest hit of each of `count` rays; of several hits at the same t, the lowest primitive
+ * counts. `hits` has room for `count` elements. So has `primitives`, unless it is NULL: it receives the number
+ * of the primitive that was hit (in a plain scene, the triangle's index), or BVHIO_NOTHING for a miss. At most
+ * `threads` threads trace, including yours; 0: all. Hits are the same, to the bit, for every tree, form,
+ * processor and number of threads. */
 BVHIO_API BvhioStatus bvhioTraceClosest(const BvhioTracer* tracer, const BvhioRay* rays, size_t count,
                                         BvhioHit* hits, uint32_t* primitives, uint32_t threads);
 
-/* [reader] Writes 1 for each ray that hits anything, else 0. `occluded` has room for `count` bytes. */
+/* [reader] Writes 1 for each ray that hits anything, otherwise 0. `occluded` has room for `count` bytes. */
 BVHIO_API BvhioStatus bvhioTraceAny(const BvhioTracer* tracer, const BvhioRay* rays, size_t count,
                                     uint8_t* occluded, uint32_t threads);
 
 /* [reader] The same for one ray, on the calling thread, without locks or allocations: for renderers that have
  * threads of their own. bvhioTraceRay returns 1 for a hit and 0 for a miss; hit and primitive may be NULL.
- * bvhioIsOccluded returns 1 when the ray hits anything, else 0. Neither checks its pointers: tracer and ray
- * must be valid. */
+ * bvhioIsOccluded returns 1 if the ray hits anything, otherwise 0. Both do not check their pointers: tracer and
+ * ray must be valid. */
 BVHIO_API int bvhioTraceRay(const BvhioTracer* tracer, const BvhioRay* ray, BvhioHit* hit,
                             uint32_t* primitive);
 BVHIO_API int bvhioIsOccluded(const BvhioTracer* tracer, const BvhioRay* ray);
@@ -362,7 +358,7 @@ typedef struct BvhioPlacement {
     float objectToWorld[12]; /* as in BvhioInstance */
 } BvhioPlacement;
 
-/* A scene as your program has it. Zero what you do not use. */
+/* A scene in your program's arrays. Set fields that you do not use to zero. */
 typedef struct BvhioSceneArrays {
     const void* vertices;    /* each starts with three floats; any alignment */
     uint64_t vertexCount;    /* below 2^32 */
@@ -375,16 +371,16 @@ typedef struct BvhioSceneArrays {
     uint64_t partCount;
     const uint32_t* sourceIds; /* of each triangle within its geometry, for hits; NULL: 0, 1, 2, ... */
 
-    const uint32_t* meshes; /* for instanced scenes: how many parts each mesh has; NULL: a plain scene */
+    const uint32_t* meshes; /* for instanced scenes: number of parts of each mesh; NULL: a plain scene */
     uint64_t meshCount;
     const BvhioPlacement* placements;
     uint64_t placementCount;
 } BvhioSceneArrays;
 
-/* Makes a scene of copies of your arrays, all checked. BVHIO_INVALID, with the first culprit in
+/* Checks your arrays, and makes a scene of copies of them. BVHIO_INVALID, with the first fault in
  * bvhioLastError: no triangles, an index out of range, a NaN or infinite coordinate, counts that disagree, a
- * transform that cannot be inverted. BVHIO_UNSUPPORTED: more than the counts above. Coordinates -0 become +0.
- */
+ * transform that cannot be inverted. BVHIO_UNSUPPORTED: a count above the limits stated there. Coordinates of -0
+ * become +0. */
 BVHIO_API BvhioStatus bvhioCreateScene(const BvhioSceneArrays* arrays, BvhioScene** scene);
 
 /* Frees a scene. NULL is allowed. */
@@ -392,7 +388,7 @@ BVHIO_API void bvhioDestroyScene(BvhioScene* scene);
 
 /* ---- Passes ---------------------------------------------------------------- */
 
-/* What passes can be told to use, each by name. */
+/* Kinds of methods that passes use; each method has a name. */
 typedef enum BvhioMethod {
     BVHIO_BUILDER = 0,      /* of bvhioBuild: option "builder" */
     BVHIO_RESTRUCTURER = 1, /* of bvhioRestructure: option "method" */
@@ -401,25 +397,25 @@ typedef enum BvhioMethod {
     BVHIO_CODEC = 4         /* of bvhioCompress: option "codec" */
 } BvhioMethod;
 
-/* The number of methods of a kind; the name of one, and what it does in one line. The first is the default.
- * NULL for an index beyond the last. Texts live as long as the program. */
+/* The number of methods of a kind; a method's name; and a summary of it in one line. Method 0 is the default.
+ * The texts live as long as the program, and are NULL for an index beyond the last method. */
 BVHIO_API uint64_t bvhioMethodCount(BvhioMethod kind);
 BVHIO_API const char* bvhioMethodName(BvhioMethod kind, uint64_t index);
 BVHIO_API const char* bvhioMethodSummary(BvhioMethod kind, uint64_t index);
 
 /* Passes take options as texts "name=value", ended by NULL; NULL alone means defaults. Names, ranges and
  * defaults are those of the command-line tools (their pages are in tools/), without "--": { "builder=sweep",
- * "max-leaf-size=8", NULL }. A name that a pass does not know, a value out of range, or an option that the
- * chosen method has no use for is BVHIO_USAGE, and bvhioLastError lists what is allowed. Each pass leaves its
- * input as it is, and adds an entry to the history of its result. With the same input and options a result is
- * the same, to the byte, for every number of threads. `context` may be NULL. */
+ * "max-leaf-size=8", NULL }. An unknown name, a value out of range, or an option that the chosen method does
+ * not use is BVHIO_USAGE, and bvhioLastError lists what is allowed. A pass does not change its input, and adds
+ * an entry to the history of its result. With the same input and options a result is the same, to the byte, for
+ * every number of threads. `context` may be NULL. */
 
 /* Builds a tree. Options of bvh-build: builder, bins, max-leaf-size, split-budget, traversal-cost,
  * intersection-cost. An instanced scene gets a tree for each mesh, and one over the instances. */
 BVHIO_API BvhioStatus bvhioBuild(const BvhioScene* scene, const char* const* options,
                                  const BvhioContext* context, BvhioContainer** result);
 
-/* Lowers the SAH cost of a tree by changing which nodes it has. Options of bvh-restructure: method,
+/* Lowers the SAH cost of a tree by changing its topology. Options of bvh-restructure: method,
  * iterations, treelet-size, gamma, collapse (yes or no), max-leaf-size. The result is in the aabb form. */
 BVHIO_API BvhioStatus bvhioRestructure(const BvhioContainer* container, const char* const* options,
                                        const BvhioContext* context, BvhioContainer** result);
@@ -434,19 +430,19 @@ BVHIO_API BvhioStatus bvhioGetCost(const BvhioContainer* container, double* cost
 
 /* ---- Saving ---------------------------------------------------------------- */
 
-/* Saves a container as a .bvhx file: with the codec and geometry that bvhioCompress chose, else with codec
- * none and geometry as it is. The file is written beside `path`, flushed to the disk and then renamed: at
- * every moment there is the old file or the whole new one, even where power fails, and the container that was
- * opened from `path` stays usable. Errors: BVHIO_IO. `context` may be NULL; of it only `threads` counts. */
+/* Saves a container as a .bvhx file: with the codec and geometry that bvhioCompress chose, otherwise with codec
+ * none and unchanged geometry. A temporary file is written beside `path`, flushed to the disk and renamed. So
+ * there is always the old file or the whole new file, even if the power fails, and a container that was opened
+ * from `path` stays usable. Errors: BVHIO_IO. `context` may be NULL; only its `threads` is used. */
 BVHIO_API BvhioStatus bvhioSaveFile(const BvhioContainer* container, const char* path,
                                     const BvhioContext* context);
 
-/* Saves to memory. `bytes` receives a block of `size` bytes at a multiple of 64, good for bvhioOpenMemory;
- * free it with bvhioFree. */
+/* Saves to memory. `bytes` receives a block of `size` bytes at an address that is a multiple of 64, suitable for
+ * bvhioOpenMemory. Free it with bvhioFree. */
 BVHIO_API BvhioStatus bvhioSaveMemory(const BvhioContainer* container, const BvhioContext* context,
                                       void** bytes, size_t* size);
 
-/* Frees what bvhioSaveMemory gave. NULL is allowed. */
+/* Frees a block that bvhioSaveMemory gave. NULL is allowed. */
 BVHIO_API void bvhioFree(void* bytes);
 
 #ifdef __cplusplus

@@ -1,9 +1,8 @@
-// bvhio for C++20: a thin layer over bvhio.h, which has the manual: handles close themselves, arrays are
-// spans, and failures are exceptions.
+// bvhio for C++20: a thin layer over bvhio.h, which is the manual. Handles close themselves, arrays are spans,
+// and failures are exceptions.
 //
-// Everything is in the inline namespace bvhio::api, so that it is called bvhio::Container and so on, and yet
-// its symbols never meet those of the same name inside the library, which a program that links it statically
-// has, too.
+// Everything is in the inline namespace bvhio::api. So programs write bvhio::Container, but the symbols differ
+// from those of the same name inside the library, which a program also has if it links the static library.
 #ifndef BVHIO_HPP
 #define BVHIO_HPP
 
@@ -57,11 +56,11 @@ inline void check(BvhioStatus status) {
     if (status != BVHIO_OK) throw Error(status, bvhioLastFinding(), bvhioLastError());
 }
 
-/// How calls run: as BvhioContext.
+/// How calls run, like BvhioContext.
 struct Context {
     uint32_t threads = 0;
-    /// Returns false to cancel: the pass then throws Error with BVHIO_CANCELLED. What it throws itself comes
-    /// out of the pass.
+    /// Returns false to cancel: the pass then throws Error with BVHIO_CANCELLED. If it throws, the pass throws
+    /// that exception.
     std::function<bool(uint64_t done, uint64_t total)> progress = {};
     std::string program = {}, programVersion = {};
 };
@@ -97,7 +96,7 @@ class Call {
 
     const BvhioContext* context() const { return &context_; }
     const char* const* options() const { return options_.data(); }
-    /// Throws unless the function succeeded; what the progress function threw goes first.
+    /// Throws unless the function succeeded; an exception of the progress function takes precedence.
     void finish(BvhioStatus status) const {
         if (thrown_) std::rethrow_exception(thrown_);
         check(status);
@@ -130,7 +129,7 @@ std::vector<Element> allOf(const BvhioContainer* container, uint64_t count,
 
 }  // namespace detail
 
-/// The library's version, as BVHIO_VERSION counts.
+/// The library's version, as a number like BVHIO_VERSION.
 inline uint32_t version() {
     return bvhioVersion();
 }
@@ -179,7 +178,7 @@ class Container {
             },
             {options.threads});
     }
-    /// Uses the bytes in place: keep them.
+    /// Uses the bytes in place: keep them unchanged while the container exists.
     static Container openMemory(std::span<const std::byte> bytes, const OpenOptions& options = {}) {
         return make(
             [&](const BvhioContext* context, BvhioContainer** handle) {
@@ -221,7 +220,7 @@ class Container {
         check(bvhioGetTriangles(handle(), &values, &count));
         return triples(values, count);
     }
-    /// Empty where triangles are numbered in order.
+    /// Empty if triangles are numbered in order.
     std::span<const uint32_t> sourceIds() const {
         const uint32_t* values = nullptr;
         uint64_t count = 0;
@@ -290,7 +289,7 @@ class Container {
     std::unique_ptr<BvhioContainer, detail::Closer<bvhioClose>> handle_;
 };
 
-/// The arrays of a scene, as BvhioSceneArrays has them; empty spans for what is not there.
+/// The arrays of a scene, like BvhioSceneArrays; a span for an array that the scene does not have is empty.
 struct SceneArrays {
     std::span<const float> vertices;    // three for each vertex, unless vertexStride says otherwise
     uint64_t vertexStride = 0;          // bytes; 0: 12
@@ -351,7 +350,8 @@ class Scene {
     std::unique_ptr<BvhioScene, detail::Closer<bvhioDestroyScene>> handle_;
 };
 
-/// Shoots rays at a container, from any thread; it needs the container no longer. Moves, but is not copied.
+/// Traces rays through a container, from any thread. Does not need the container any more. Moves, but is not
+/// copied.
 class Tracer {
   public:
     /// With `copiesTriangles` false: see BVHIO_NO_COPY.
@@ -366,13 +366,14 @@ class Tracer {
 
     const BvhioTracer* handle() const { return handle_.get(); }
 
-    /// Whether the ray hits something; of the closest hit, `hit` and the primitive's number.
+    /// Whether the ray hits something. Fills `hit` and `primitive` with the closest hit and its primitive's
+    /// number.
     bool trace(const Ray& ray, Hit& hit, uint32_t* primitive = nullptr) const {
         return bvhioTraceRay(handle(), &ray, &hit, primitive) != 0;
     }
     bool isOccluded(const Ray& ray) const { return bvhioIsOccluded(handle(), &ray) != 0; }
 
-    /// Spans have one size; `primitives` may be empty.
+    /// All spans have the same size; `primitives` may be empty.
     void traceClosest(std::span<const Ray> rays, std::span<Hit> hits, std::span<uint32_t> primitives = {},
                       uint32_t threads = 0) const {
         requireSize(hits.size(), rays.size());
@@ -393,7 +394,7 @@ class Tracer {
     std::unique_ptr<BvhioTracer, detail::Closer<bvhioDestroyTracer>> handle_;
 };
 
-/// The names of what passes can use; the first is the default.
+/// The names of a kind's methods; the first is the default.
 inline std::vector<std::string_view> methodNames(BvhioMethod kind) {
     std::vector<std::string_view> names;
     for (uint64_t i = 0; i < bvhioMethodCount(kind); ++i) names.emplace_back(bvhioMethodName(kind, i));

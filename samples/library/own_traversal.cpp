@@ -1,5 +1,5 @@
-// Walks the decoded nodes of a .bvhx file's tree by itself: finds how many triangles lie near a point, and
-// compares with a walk over all triangles. This works for files in any form, since compact ones are decoded.
+// Traverses the decoded nodes of a .bvhx file's tree with its own code: counts the triangles near a point, and
+// compares with a loop over all triangles. This works for files in any form, because compact forms are decoded.
 #include <algorithm>
 #include <array>
 #include <bvhio.hpp>
@@ -20,7 +20,7 @@ bool meet(const Box& a, const float* min, const float* max) {
     return true;
 }
 
-/// A plain scene's triangle as its box.
+/// The box of a triangle in a plain scene.
 Box boxOf(const bvhio::Container& container, uint32_t triangle) {
     const auto vertices = container.vertices();
     const auto& corners = container.triangles()[triangle];
@@ -33,7 +33,7 @@ Box boxOf(const bvhio::Container& container, uint32_t triangle) {
     return box;
 }
 
-/// The triangles whose boxes meet `query`, each once, in ascending order; `visited` counts nodes.
+/// Returns the triangles whose boxes overlap `query`, each once, in ascending order; counts nodes in `visited`.
 std::vector<uint32_t> trianglesIn(const bvhio::Container& container, const Box& query, size_t& visited) {
     const bvhio::Tree tree = container.tree();
     std::vector<uint32_t> found, stack{0};
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
                                 "own_traversal: the scene has instances: this sample is for plain ones\n"),
                    1;
 
-        // A tenth of the scene around its middle.
+        // A box around the middle of the scene, a tenth of its size.
         const bvhio::Node& root = container.tree().nodes[0];
         Box query;
         for (size_t axis = 0; axis < 3; ++axis) {

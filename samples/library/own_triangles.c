@@ -1,4 +1,4 @@
-/* Builds a tree over triangles of its own, saves it in a compact form, opens the file and shoots a ray at it.
+/* Builds a tree over its own triangles, saves it in a compact form, opens the file and traces a ray through it.
  */
 #include <bvhio.h>
 #include <math.h>
@@ -7,7 +7,7 @@
 
 enum { kSide = 64 };
 
-/* A vertex as many programs have it: the position is a part of it. */
+/* A vertex as in many programs: the position is only a part of it. */
 typedef struct Vertex {
     float position[3];
     float texture[2];
@@ -46,7 +46,7 @@ static int showProgress(void* user, uint64_t done, uint64_t total) {
     return 0;
 }
 
-/* Saves the hills' tree to `path`. */
+/* Builds the tree over the hills and saves it to `path`. */
 static BvhioStatus save(const char* path) {
     const char* buildOptions[] = {"builder=sweep", "max-leaf-size=2", NULL};
     BvhioContext context;
@@ -79,7 +79,7 @@ static BvhioStatus save(const char* path) {
     return status;
 }
 
-/* Shoots down at the middle of what `path` has. */
+/* Traces a ray from above to the middle of the scene in `path`. */
 static BvhioStatus shoot(const char* path) {
     BvhioContainer* container = NULL;
     BvhioTracer* tracer = NULL;
@@ -90,7 +90,7 @@ static BvhioStatus shoot(const char* path) {
     if (status == BVHIO_OK) status = bvhioCreateTracer(container, 0, NULL, &tracer);
     if (status == BVHIO_OK) {
         if (bvhioTraceRay(tracer, &ray, &hit, &triangle)) {
-            /* What was hit lies among this program's own arrays. */
+            /* The ids of a hit lead back to this program's own arrays. */
             const uint32_t* corners = &indices[3 * triangle];
             const float u = (1 - hit.u - hit.v) * vertices[corners[0]].texture[0] +
                             hit.u * vertices[corners[1]].texture[0] + hit.v * vertices[corners[2]].texture[0];

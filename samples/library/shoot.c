@@ -1,10 +1,10 @@
-/* Opens a .bvhx file, shoots one ray through the middle of its scene from the front, and prints what it hits.
+/* Opens a .bvhx file, traces one ray through the middle of its scene from the front, and prints the hit.
  */
 #include <bvhio.h>
 #include <math.h>
 #include <stdio.h>
 
-/* Prints the library's last failure and returns its status, which is a fine exit code. */
+/* Prints the library's last failure and returns its status, which is also the exit status of the program. */
 static int fail(BvhioStatus status) {
     fprintf(stderr, "shoot: %s\n", bvhioLastError());
     return (int)status;

@@ -1,4 +1,4 @@
-// Opens a .bvhx file, shoots one ray through the middle of its scene from the front, and prints what it hits.
+// Opens a .bvhx file, traces one ray through the middle of its scene from the front, and prints the hit.
 #include <bvhio.hpp>
 #include <cmath>
 #include <cstdio>

@@ -47,8 +47,8 @@ class MemorySource : public ByteSource {
     std::span<const std::byte> bytes_;
 };
 
-/// Whoever owns the memory, a mapping for instance, lives as long as any array that views it. Without an
-/// owner the caller keeps it.
+/// Memory that is used in place. The owner, a mapping for instance, lives as long as any array that views the
+/// memory. Without an owner, the caller keeps the memory alive.
 class ViewedSource : public ByteSource {
   public:
     ViewedSource(std::shared_ptr<const void> owner, std::span<const std::byte> bytes, const std::string& name)
@@ -58,7 +58,7 @@ class ViewedSource : public ByteSource {
     Bytes takeNext(uint64_t count) override {
         const auto part = bytes_.first(size_t(std::min<uint64_t>(count, bytes_.size())));
         bytes_ = bytes_.subspan(part.size());
-        // Arrays are read as they lie: nodes want their cache lines.
+        // Arrays are used where they lie, and nodes must be aligned to cache lines: copy if they are not.
         if (reinterpret_cast<uintptr_t>(part.data()) % kAlignment != position() % kAlignment)
             return AlignedVector<std::byte>(part.begin(), part.end());
         return {owner_, part};
@@ -104,15 +104,15 @@ Descriptor openToRead(const std::filesystem::path& path) {
     return descriptor;
 }
 
-/// The size in bytes; 0 for what is not a regular file.
+/// Returns the size in bytes, or 0 if the file is not a regular one.
 uint64_t regularSize(const Descriptor& descriptor, const std::string& name) {
     struct stat status {};
     if (::fstat(descriptor.get(), &status) != 0) failIo(name, "stat");
     return S_ISREG(status.st_mode) ? uint64_t(status.st_size) : 0;
 }
 
-/// Maps a range of the file, which is not empty; nullptr where the system cannot. Maps start with a page, so
-/// that of the range may start before it.
+/// Maps a range of the file, which must not be empty. Returns nullptr if the system cannot map it. A mapping
+/// starts at a page, so it may start before the range.
 std::unique_ptr<ByteSource> mapRange(const Descriptor& descriptor, uint64_t offset, uint64_t length,
                                      const std::string& name) {
     const auto page = uint64_t(::sysconf(_SC_PAGESIZE));

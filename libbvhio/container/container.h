@@ -56,10 +56,10 @@ class ContentHash {
     std::vector<uint64_t> records_;
 };
 
-/// How much of a file its reader checks. It takes a trusted file's payloads as they are: it does not check
-/// their checksums, the content hash, and anything that asks for a look at every element. Only files that this
-/// machine has checked or written before may be trusted: a damaged one makes the reader access memory
-/// anywhere.
+/// How much of a file its reader checks. In a trusted file it skips the checksums, the content hash
+/// and every check that visits all elements of an array. Trust only files that this machine has
+/// checked or written before: a damaged file makes a trusting reader access memory outside its
+/// arrays.
 enum class Trust { checked, trusted };
 
 /// Reads a container front to back. Checks all clauses R10xx, unless the file is trusted, and throws
@@ -84,10 +84,10 @@ class ContainerReader {
     [[noreturn]] void fail(FindingId id, const std::string& message) const;
     const std::string& name() const { return source_.name(); }
     const ChunkHeader& lastHeader() const { return header_; }
-    /// Every chunk header that was read, in file order.
+    /// Returns every chunk header read so far, in file order.
     const std::vector<ChunkHeader>& headers() const { return headers_; }
     bool isTrusted() const { return trust_ == Trust::trusted; }
-    /// What END states; 0 until END was read.
+    /// Returns the content hash that END states, or 0 until END was read.
     uint64_t contentHash() const { return contentHash_; }
 
   private:

@@ -12,17 +12,17 @@ struct Cancelled : std::exception {
     const char* what() const noexcept override { return "cancelled"; }
 };
 
-/// Hears of progress on the threads that make it, on several at once. What it throws ends the pass: the pass's
-/// function throws it, and the pass's input stays as it was.
+/// Receives a pass's progress, called from the pass's own threads, several at once. An exception that it
+/// throws ends the pass: the pass's function throws it on, and the pass's input stays unchanged.
 class ProgressListener {
   public:
     virtual ~ProgressListener() = default;
     virtual void advanced(uint64_t done, uint64_t total) = 0;
 };
 
-/// A pass adds the work it has finished to `done`, from any thread, in portions so large that adding costs
-/// nothing. Another thread may watch it, or a listener is told. `total` is in the same unit, and 0 while it is
-/// unknown.
+/// A pass's progress. The pass adds finished work to `done`, from any thread, in portions so large that the
+/// addition costs nothing. Another thread may read `done`, or a listener is called after each addition.
+/// `total` is in the same unit, and 0 while it is unknown.
 struct Progress {
     std::atomic<uint64_t> done{0}, total{0};
     ProgressListener* listener = nullptr;

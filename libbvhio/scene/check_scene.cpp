@@ -18,8 +18,9 @@ Finding arrayFinding(FindingId id, uint64_t offset, const std::string& message) 
     return {id, Finding::Severity::error, message, "", offset, kNowhere};
 }
 
-/// Runs bad(i) over the elements of [0, count) whose stretch `anyBad(begin, end)` says holds one, until
-/// `maxFound` are found.
+/// Calls report(i) for the first `maxFound` bad elements i of [0, count). anyBad(begin, end) returns whether
+/// [begin, end) has a bad element. It first runs in parallel over large ranges, because most arrays have
+/// none.
 template <class AnyBad, class Report>
 void findBad(size_t count, size_t maxFound, const AnyBad& anyBad, const Report& report) {
     std::atomic<bool> found = false;
@@ -81,7 +82,8 @@ void checkMeshes(const Scene& scene) {
         if (numbered.meshes[i].triangleCount == 0)
             refuse("has a mesh without triangles: mesh " + std::to_string(i));
         if (numbered.meshes[i] != scene.meshes[i])
-            refuse("has mesh " + std::to_string(i) + " with other runs than its geometries");
+            refuse("has mesh " + std::to_string(i) + " whose first geometry, first triangle or triangle " +
+                   "count does not match its geometries");
     }
 }
 
@@ -97,7 +99,8 @@ void checkInstances(const Scene& scene) {
             refuse("has " + name + " with a transform that is not finite or cannot be inverted");
         const SceneMesh& mesh = scene.meshes[instance.mesh];
         if (instance.firstPrimitive != primitive || instance.firstGeometry < geometry)
-            refuse("has " + name + " numbered other than behind the instances before it");
+            refuse("has " + name +
+                   " whose primitive or geometry numbers do not follow those of the instances before it");
         primitive += mesh.triangleCount;
         geometry = uint64_t(instance.firstGeometry) + mesh.geometryCount;
         if (primitive > kMaxPrimitives || geometry > std::numeric_limits<uint32_t>::max())
@@ -111,8 +114,8 @@ void checkInstances(const Scene& scene) {
 std::vector<Finding> checkVertices(const Scene& scene, size_t maxPerId) {
     std::vector<Finding> findings;
     const std::span<const float> coordinates{&scene.vertices.data()->x, scene.vertices.size() * 3};
-    // Over bits, so that the compiler can use vectors: the exponent of what is not finite is all ones, and -0
-    // is one pattern.
+    // Compare bits, so that the compiler can vectorize the loops: a number that is not finite has an exponent
+    // of all ones, and -0 is one bit pattern.
     const auto anyNotFinite = [&](size_t begin, size_t end) {
         bool bad = false;
         for (size_t i = begin; i < end; ++i)

@@ -1,4 +1,4 @@
-// Checks every promise that scene/scene.h makes.
+// Checks that a scene keeps all rules of scene/scene.h.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace bvhio {
 
-/// Checks coordinates, or indices, in parallel: returns at most `maxPerId` findings of each kind, with
-/// offsets from the array's start and no chunk.
+/// Check coordinates and indices, in parallel. Each returns at most `maxPerId` findings of each kind, with
+/// offsets from the array's start and without a chunk.
 std::vector<Finding> checkVertices(const Scene& scene, size_t maxPerId);
 std::vector<Finding> checkTriangles(const Scene& scene, size_t maxPerId);
 
-/// Throws unless the scene is valid, an Error that names the first thing that is wrong: invalid, or
-/// unsupported where a count is beyond what the format can hold. What it lets pass every pass can work on and
-/// every reader reads back. O(n), parallel.
+/// Throws an Error about the first fault of the scene: invalid, or unsupported if a count is beyond what the
+/// format can hold. Every pass can work on a scene that passes, and every reader can read it back. O(n),
+/// parallel.
 void checkScene(const Scene& scene);
 
 }  // namespace bvhio

@@ -27,7 +27,7 @@ AlignedVector<Vec3> copyVertices(const SceneArrays& arrays) {
 void checkSizes(const SceneArrays& arrays) {
     if (arrays.vertexStride < sizeof(Vec3))
         throw Error(ErrorKind::usage, "vertices are " + std::to_string(arrays.vertexStride) +
-                                          " bytes apart: a vertex takes 12");
+                                          " bytes apart, but a vertex takes 12");
     if (arrays.indices.size() % 3 != 0)
         throw Error(ErrorKind::usage,
                     std::to_string(arrays.indices.size()) + " indices are not three for each triangle");
@@ -69,13 +69,14 @@ Scene sceneFromArrays(const SceneArrays& arrays) {
     for (const SceneArrays::Placed& placed : arrays.instances) {
         if (placed.mesh >= scene.meshes.size())
             throw Error(ErrorKind::invalid, "instance " + std::to_string(scene.instances.size()) +
-                                                " places mesh " + std::to_string(placed.mesh) +
+                                                " refers to mesh " + std::to_string(placed.mesh) +
                                                 ", but there are only " +
                                                 std::to_string(scene.meshes.size()));
         scene.instances.push_back({placed.objectToWorld, placed.mesh, 0, 0});
     }
     numberInstances(scene);
-    uint64_t geometry = 0;  // as hits number them
+    // Hits number the geometries of all instances in one sequence.
+    uint64_t geometry = 0;
     for (SceneInstance& instance : scene.instances) {
         instance.firstGeometry = uint32_t(geometry);
         geometry += scene.meshes[instance.mesh].geometryCount;

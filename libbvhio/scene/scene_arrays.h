@@ -1,4 +1,4 @@
-// The door for scenes that come from a program's own arrays.
+// Makes a valid scene from a program's own arrays.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace bvhio {
 
-/// A scene as a program has it. Nothing here is trusted.
+/// A scene in a program's own arrays. sceneFromArrays checks all of it.
 struct SceneArrays {
     const void* vertices = nullptr;  // of three floats each
     size_t vertexCount = 0;
@@ -21,12 +21,12 @@ struct SceneArrays {
         std::string name;
         uint32_t triangleCount = 0;
     };
-    std::span<const Part> geometries;  // in order; empty: one without a name for all triangles
-    std::span<const uint32_t>
-        sourcePrimitives;  // as in Scene; empty: triangles are numbered in each geometry
+    std::span<const Part> geometries;  // in order; empty: one geometry without a name for all triangles
+    // As in Scene. Empty: each triangle's source number is its index in its geometry.
+    std::span<const uint32_t> sourcePrimitives;
 
     // Only for instanced scenes.
-    std::span<const uint32_t> meshes;  // how many geometries each has
+    std::span<const uint32_t> meshes;  // the number of geometries of each mesh
     struct Placed {
         uint32_t mesh = 0;
         Affine objectToWorld = kIdentityAffine;
@@ -34,9 +34,9 @@ struct SceneArrays {
     std::span<const Placed> instances;
 };
 
-/// Copies the arrays to a valid scene; -0 becomes +0. Throws Error: invalid when there are no triangles, an
+/// Copies the arrays to a valid scene; -0 becomes +0. Throws Error: invalid if there are no triangles, an
 /// index is out of range, a coordinate is not finite, counts disagree or a transform cannot be inverted;
-/// unsupported when there is too much of something; usage when the arrays themselves make no sense.
+/// unsupported if a count exceeds the format's limit; usage if a stride or an array's length makes no sense.
 Scene sceneFromArrays(const SceneArrays& arrays);
 
 }  // namespace bvhio

@@ -96,7 +96,7 @@ TEST(CheckScene, namesWhatIsWrong) {
     expectRefused(scene, "inverted");
     scene.instances = {{kIdentityAffine, 0, 0, 0}};
     scene.meshes = {{0, 1, 0, 1}};
-    expectRefused(scene, "mesh 0 with other runs");
+    expectRefused(scene, "mesh 0 whose first geometry, first triangle or triangle count does not match");
     scene.meshes = {{0, 2, 0, 2}};
     expectRefused(scene, "its meshes have 2");
     scene = good;

@@ -7,11 +7,11 @@
 
 namespace bvhio {
 
-/// Both levels of an instanced scene as they are built: in the aabb form.
+/// Returns options that encode both levels of an instanced scene in the aabb form, as they are built.
 EncodeOptions exactLevels();
 
-/// Puts what the function makes of the container's tree in its place, in the aabb form; in an instanced scene
-/// that of each tree, `isTop` for the one over the instances, whose scene has a triangle in each instance's
+/// Replaces the file's tree, or each tree of an instanced scene, by the tree that `function` returns for it,
+/// in the aabb form. `isTop` marks the tree over the instances; its scene has one triangle in each instance's
 /// box.
 using TreeFunction = std::function<Bvh(const Scene&, const Bvh&, bool isTop)>;
 void changeTrees(BvhxFile& file, const TreeFunction& function);

@@ -20,8 +20,8 @@ namespace {
     throw Error(ErrorKind::io, name + ": cannot be written: " + std::strerror(error));
 }
 
-/// Waits until the disk knows the names in the folder of `path`. Some file systems cannot: the file itself is
-/// safe then, which is all that can be had.
+/// Waits until the names in the folder of `path` are on the disk. Some file systems cannot sync a folder: the
+/// file itself is safe then, which is all that can be done.
 void syncFolderOf(const std::string& path) {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     const int file = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -43,7 +43,8 @@ FileBuffer::~FileBuffer() {
 
 void FileBuffer::waitForDisk() {
     sync();
-    if (fsync(file_) != 0 && errno != EINVAL) throwUnwritable(name_, errno);  // EINVAL: it is no disk's file
+    // EINVAL means that the descriptor does not support synchronization: a pipe, for instance.
+    if (fsync(file_) != 0 && errno != EINVAL) throwUnwritable(name_, errno);
 }
 
 void FileBuffer::closeFile() {
@@ -97,8 +98,8 @@ std::string regularTarget(const std::string& path) {
         throw Error(ErrorKind::io, path + ": is a directory: name a file");
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return "";
     if (!std::filesystem::is_symlink(path, error)) return path;
-    const auto target =
-        std::filesystem::weakly_canonical(path, error);  // writing through a link keeps the link
+    // Write to the link's target, so that the link stays.
+    const auto target = std::filesystem::weakly_canonical(path, error);
     return error ? path : target.string();
 }
 

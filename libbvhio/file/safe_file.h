@@ -37,7 +37,7 @@ class FileBuffer : public std::streambuf {
     std::vector<char> pending_;
 };
 
-/// Hears of a temporary file, so that a signal handler can remove it.
+/// Learns of a temporary file, so that a signal handler can remove it.
 class TemporaryWatcher {
   public:
     virtual ~TemporaryWatcher() = default;
@@ -45,20 +45,20 @@ class TemporaryWatcher {
     virtual void isGone() = 0;
 };
 
-/// What survives a failure of power: nothing promised, or the whole file once commit returns.
+/// What survives a power failure: none: no promise; synced: the whole file, once commit returns.
 enum class Durability { none, synced };
 
-/// The regular file that `path` names in the end, a symbolic link's target for instance, whether it exists or
-/// not; "" when it is a device or a pipe. Throws Error{io} for a directory.
+/// Returns the regular file that `path` leads to, a symbolic link's target for instance, whether the file
+/// exists or not. Returns "" for a device or a pipe. Throws Error{io} for a directory.
 std::string regularTarget(const std::string& path);
 
-/// A file that is written beside its final place and renamed by commit(): a failure leaves the old file whole
-/// and no part of the new one, and the old one may still be mapped.
+/// A file that is written beside its final place and renamed by commit(). A failure leaves the old file whole
+/// and no part of the new one. The old file may still be mapped meanwhile.
 class SafeFile {
   public:
-    /// Opens the temporary file, so that a wrong path is found out before the work; it gets the permissions
-    /// of the file that it replaces. `path` is what regularTarget gives, or a path of which that is known.
-    /// Throws Error{io}; `name` is for messages.
+    /// Opens the temporary file, so that a wrong path is found before the work starts. The file gets the
+    /// permissions of the file that it replaces. `path` must be a result of regularTarget, or a path that is
+    /// known to be such. Throws Error{io}; `name` is for messages.
     SafeFile(const std::string& path, const std::string& name, TemporaryWatcher* watcher = nullptr);
     /// Removes the temporary file unless commit() was called.
     ~SafeFile();
@@ -76,7 +76,7 @@ class SafeFile {
     TemporaryWatcher* watcher_;
     std::unique_ptr<FileBuffer> buffer_;
     std::unique_ptr<std::ostream> stream_;
-    bool exists_ = false;  // the temporary file
+    bool exists_ = false;  // whether the temporary file exists
 };
 
 }  // namespace bvhio

@@ -1,4 +1,4 @@
-// How the aabb form is stored: format-spec/aabb.md, or topology.md.
+// The storage of the aabb form: format-spec/aabb.md, or topology.md.
 #pragma once
 
 #include "compress/aabb_form.h"
@@ -21,7 +21,7 @@ struct FormChunks<AabbForm> {
         writeArrayChunk(writer, kPrimitivesType, form.bvh().primitives);
         writeClusters(writer, form.bvh().slots);
     }
-    /// Without boxes, which come back from the scene's triangles.
+    /// Writes the tree without boxes. The reader computes them from the scene's triangles.
     static void writeTopology(ContainerWriter& writer, const AabbForm& form, const Scene& scene) {
         writeArrayChunk(writer, kPrimitivesType, form.bvh().primitives);
         writeChunk(writer, kTopologyType, topologyPayload(form.bvh(), boundsOfTriangles(scene)));
@@ -40,18 +40,18 @@ struct FormChunks<AabbForm> {
         bvh.nodes = chunks.expectArray<Node>(kNodesType, parameters.nodeSlots);
         const uint64_t nodesOffset = chunks.payloadOffset();
         bvh.primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
-        judgeTree(chunks, bvh, parameters, scene, nodesOffset, sizeof(Node));
+        validateTree(chunks, bvh, parameters, scene, nodesOffset, sizeof(Node));
         return bvh;
     }
     static Bvh readWithoutBoxes(ChunkSequence& chunks, const TreeParameters& parameters, const Scene& scene) {
         const auto primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
         for (const uint32_t primitive : primitives)
             if (primitive >= scene.triangles.size())
-                chunks.fail(FindingId::primitiveIndex, "an entry is " + std::to_string(primitive) + " of " +
-                                                           std::to_string(scene.triangles.size()) +
-                                                           " triangles");
+                chunks.fail(FindingId::primitiveIndex,
+                            "an entry refers to triangle " + std::to_string(primitive) +
+                                ", but there are only " + std::to_string(scene.triangles.size()));
         Bvh bvh = readTopology(chunks, parameters, primitives, scene);
-        judgeTree(chunks, bvh, parameters, scene, chunks.payloadOffset(), 0, kTopologyType);
+        validateTree(chunks, bvh, parameters, scene, chunks.payloadOffset(), 0, kTopologyType);
         return bvh;
     }
 };

@@ -64,7 +64,7 @@ const ChunkHeader& ChunkSequence::peek() {
     return *next_;
 }
 
-void ChunkSequence::judge(std::vector<Finding> findings, uint64_t payload) {
+void ChunkSequence::addFindings(std::vector<Finding> findings, uint64_t payload) {
     for (Finding& finding : findings) {
         if (finding.offset != kNowhere) finding.offset += payload;
         if (!collected_) throw FindingError(reader_.name(), finding);

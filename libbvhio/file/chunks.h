@@ -38,9 +38,9 @@ struct ChunkKind {
     std::string_view name;
 };
 
-/// Every known type, in the order in which chunks appear in a file; END is last.
+/// Returns every known type, in the order in which chunks appear in a file. END is last.
 std::span<const ChunkKind> chunkKinds();
-/// The row of a type, or nullptr.
+/// Returns the row of a type, or nullptr.
 const ChunkKind* findChunkKind(uint32_t type);
 
 /// Writes a chunk of known type with its flags.
@@ -55,37 +55,37 @@ void writeArrayChunk(ContainerWriter& writer, uint32_t type, const SharedArray<T
     writeChunk(writer, type, std::as_bytes(std::span<const T>(array)), kNumbers);
 }
 
-/// Reads known chunks in the order that the caller asks for, and gathers the unknown ones between them.
+/// Reads known chunks in the order in which the caller asks for them, and collects the unknown ones between.
 class ChunkSequence {
   public:
-    /// With `collected`, findings about a payload's content gather there; without, the first one is thrown.
+    /// Findings about a payload's content are appended to `collected`. Without it, the first one is thrown.
     explicit ChunkSequence(ContainerReader& reader, std::vector<Finding>* collected = nullptr)
         : reader_(reader), collected_(collected) {}
 
-    /// The payload of the next known chunk, which must be of this type; with `size` bytes, unless that is
-    /// kAnySize.
+    /// Returns the payload of the next known chunk. Throws FindingError unless the chunk is of this type and
+    /// the payload has `size` bytes, or any size with kAnySize.
     Bytes expect(uint32_t type, uint64_t size);
     template <class T>
     SharedArray<T> expectArray(uint32_t type, uint64_t count) {
         const Bytes bytes = expect(type, count * sizeof(T));
         return {bytes.owner(), {reinterpret_cast<const T*>(bytes.data()), size_t(count)}};
     }
-    /// Whether the next known chunk is of this type.
+    /// Returns whether the next known chunk is of this type.
     bool nextIs(uint32_t type);
     /// Throws FindingError about the chunk that was read last.
     [[noreturn]] void fail(FindingId id, const std::string& message) const { reader_.fail(id, message); }
-    /// Takes findings about content: throws the first or collects all. `payload` is where their offsets count
-    /// from.
-    void judge(std::vector<Finding> findings, uint64_t payload);
-    /// Whether all that was read so far may be relied on: always, unless findings were collected.
+    /// Takes findings about a payload that starts at byte `payload`, where their offsets count from. Collects
+    /// all of them, or throws the first.
+    void addFindings(std::vector<Finding> findings, uint64_t payload);
+    /// Returns whether all content read so far is valid: true unless findings were collected.
     bool sound() const { return !collected_ || collected_->empty(); }
-    /// Whether payloads are taken as they are: then nobody judges every element.
+    /// Returns whether the file is trusted, so that no check may visit all elements.
     bool isTrusted() const { return reader_.isTrusted(); }
-    /// How many findings of one kind are worth looking for.
+    /// Returns how many findings of one kind a check should look for.
     size_t maxPerId() const { return collected_ ? 8 : 1; }
-    /// Where in the file the payload that was read last starts.
+    /// Returns where in the file the payload starts that was read last.
     uint64_t payloadOffset() const { return reader_.lastHeader().payloadOffset(); }
-    /// Hands over the unknown ancillary chunks that were passed.
+    /// Returns the unknown ancillary chunks that were skipped, and forgets them.
     std::vector<UnknownChunk> takeUnknown() { return std::move(unknown_); }
 
     static constexpr uint64_t kAnySize = ~uint64_t(0);

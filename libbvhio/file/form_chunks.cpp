@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t kTreeSize = 64;
 
-/// Whether a tree with such counts can be over the scene.
+/// Returns whether a tree over the scene can have these counts.
 bool countsFit(const TreeParameters& p, const Scene& scene) {
     return p.references >= scene.triangles.size() && p.references <= 0xFFFFFFFF && p.nodeSlots >= 2 &&
            p.nodeSlots % 2 == 0 && p.nodeSlots <= 2 * (p.references + scene.instances.size()) &&
@@ -26,7 +26,7 @@ bool countsFit(const TreeParameters& p, const Scene& scene) {
 
 std::string describeCounts(const TreeParameters& p, const Scene& scene) {
     return std::to_string(p.nodeSlots) + " node slots and " + std::to_string(p.references) +
-           " references of depth " + std::to_string(p.depth) + " are no tree over " +
+           " references of depth " + std::to_string(p.depth) + " cannot form a tree over " +
            std::to_string(scene.triangles.size()) + " triangles";
 }
 
@@ -50,7 +50,7 @@ TreeParameters readParameters(ChunkSequence& chunks, const Scene& scene) {
     return p;
 }
 
-/// Reads the form that `parameters` names, out of the list of EncodedBvh.
+/// Reads a tree in the form with the code of `parameters`, one of the alternatives of EncodedBvh.
 template <size_t I = 0>
 EncodedBvh readForm(ChunkSequence& chunks, const TreeParameters& parameters, const Scene& scene) {
     if constexpr (I == std::variant_size_v<EncodedBvh>) {
@@ -61,7 +61,7 @@ EncodedBvh readForm(ChunkSequence& chunks, const TreeParameters& parameters, con
         if (Chunks::kCode == parameters.form) {
             if (scene.isInstanced() && Chunks::kCode != FormChunks<TwoLevelForm>::kCode)
                 chunks.fail(FindingId::treeOfInstances,
-                            "a scene with instances has its tree in the two-level form");
+                            "a scene with instances must have its tree in the two-level form");
             return Chunks::read(chunks, parameters, scene);
         }
         return readForm<I + 1>(chunks, parameters, scene);

@@ -1,4 +1,4 @@
-// How the mvh form is stored: format-spec/mvh.md.
+// The storage of the mvh form: format-spec/mvh.md.
 #pragma once
 
 #include "compress/mvh_form.h"
@@ -30,7 +30,9 @@ struct FormChunks<MvhForm> {
     }
     static MvhForm read(ChunkSequence& chunks, const TreeParameters& tree, const Scene& scene) {
         if (tree.references != scene.triangles.size())
-            chunks.fail(FindingId::treeCounts, "an mvh tree has each triangle once");
+            chunks.fail(FindingId::treeCounts, std::to_string(tree.references) + " references for " +
+                                                   std::to_string(scene.triangles.size()) +
+                                                   " triangles, but an mvh tree has each triangle once");
         const Bytes payload = chunks.expect(kFormType, kFormSize);
         ByteReader reader(payload, "chunk FORM");
         Aabb bounds;
@@ -44,7 +46,7 @@ struct FormChunks<MvhForm> {
         parameters.leafSize = reader.u32();
         if (!reader.skipZeros(reader.remaining()))
             chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
-        // Whatever must hold before boxes can be reconstructed at all.
+        // Check what the reconstruction of boxes relies on.
         if (!isFinite(bounds.min) || !isFinite(bounds.max))
             chunks.fail(FindingId::boxNotFinite, "the root's box is not finite");
         if (!(rule.zeta > 0 && rule.zeta <= MvhRule::kMaxZeta && rule.zetaOfBoth > 0 &&
@@ -58,15 +60,15 @@ struct FormChunks<MvhForm> {
             chunks.fail(FindingId::treeCounts, std::to_string(tree.references) + " references in leaves of " +
                                                    std::to_string(parameters.leafSize) + " make " +
                                                    std::to_string(uint64_t(shape.nodeCount()) + 1) +
-                                                   " node slots, TREE states " +
+                                                   " node slots, but TREE states " +
                                                    std::to_string(tree.nodeSlots));
         SharedArray<uint32_t> words = chunks.expectArray<uint32_t>(kNodesType, MvhForm::wordCount(shape));
         if ((words[words.size() - 1] >> (shape.innerCount() % 8 * 4)) != 0)
-            chunks.fail(FindingId::payloadReserved, "a nibble behind the last inner node's is not zero");
+            chunks.fail(FindingId::payloadReserved, "unused bits after the last inner node must be zero");
         const uint64_t nodesOffset = chunks.payloadOffset();
         MvhForm form(bounds, parameters, std::move(words),
                      chunks.expectArray<uint32_t>(kPrimitivesType, tree.references));
-        judgeForm(chunks, form, tree, scene, nodesOffset, 0);
+        validateForm(chunks, form, tree, scene, nodesOffset, 0);
         return form;
     }
 };

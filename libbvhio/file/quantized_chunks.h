@@ -1,4 +1,4 @@
-// How the quantized form is stored: format-spec/quantized.md.
+// The storage of the quantized form: format-spec/quantized.md.
 #pragma once
 
 #include "compress/quantized_form.h"
@@ -42,12 +42,13 @@ struct FormChunks<QuantizedForm> {
         const size_t count = parameters.nodeSlots / 2 - 1;
         SharedArray<QuantizedRecord> records = chunks.expectArray<QuantizedRecord>(kNodesType, count);
         for (size_t i = 0; i < count; ++i) checkRecord(chunks, records[i], i, count, bits);
-        // Node 2 r + 2 is the first half of record r: the root and its unused neighbour come before.
+        // Node 2 r + 2 is the first half of record r. The root and its unused neighbor, which come before,
+        // are not stored.
         constexpr size_t nodeSize = sizeof(QuantizedRecord) / 2;
         const uint64_t nodesOffset = chunks.payloadOffset() - 2 * nodeSize;
         QuantizedForm form(bounds, bits, std::move(records),
                            chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references));
-        judgeForm(chunks, form, parameters, scene, nodesOffset, nodeSize);
+        validateForm(chunks, form, parameters, scene, nodesOffset, nodeSize);
         return form;
     }
 
@@ -58,9 +59,9 @@ struct FormChunks<QuantizedForm> {
     static void checkBits(const ChunkSequence& chunks, uint32_t bits) {
         if (bits < QuantizedRecord::kMinBits || bits > QuantizedRecord::kMaxBits)
             chunks.fail(FindingId::formParameter,
-                        "planes of " + std::to_string(bits) + " bits: 5 to 8 are known");
+                        "planes have " + std::to_string(bits) + " bits, but only 5 to 8 are possible");
     }
-    /// Whatever must hold before the tree can be decoded at all.
+    /// Checks what decoding relies on. The decoded tree may still be invalid.
     static void checkRecord(const ChunkSequence& chunks, const QuantizedRecord& record, size_t index,
                             size_t count, uint32_t bits) {
         for (uint32_t side = 0; side < 6; ++side)
@@ -72,13 +73,13 @@ struct FormChunks<QuantizedForm> {
             const uint32_t word = record.children[child];
             if (QuantizedRecord::isLeaf(word)) continue;
             if (record.more(child) >> 3 != 0)
-                chunks.fail(FindingId::nodeField,
-                            "record " + std::to_string(index) + " gives a size to a child that is no leaf");
+                chunks.fail(FindingId::nodeField, "record " + std::to_string(index) +
+                                                      " gives a size to a child that is not a leaf");
             if (QuantizedRecord::record(word) <= index || QuantizedRecord::record(word) >= count)
-                chunks.fail(FindingId::childIndex, "record " + std::to_string(index) +
-                                                       " has a child with record " +
-                                                       std::to_string(QuantizedRecord::record(word)) +
-                                                       ": not behind it and below " + std::to_string(count));
+                chunks.fail(FindingId::childIndex,
+                            "record " + std::to_string(index) + " has a child with record " +
+                                std::to_string(QuantizedRecord::record(word)) +
+                                ", which is not after it and below " + std::to_string(count));
         }
     }
 };

@@ -11,7 +11,7 @@ std::string named(const char* what, uint64_t index) {
     return std::string(what).append(" ").append(std::to_string(index));
 }
 
-/// What FORM says.
+/// The fields of FORM.
 struct Parameters {
     Aabb bounds;
     uint32_t pointerBits, lineSlots;
@@ -32,16 +32,16 @@ Parameters readForm(ChunkSequence& chunks) {
     if (p.bounds.isEmpty() || !isFinite(p.bounds.min) || !isFinite(p.bounds.max))
         chunks.fail(FindingId::boxNotFinite, "the root's box is not finite or has min > max");
     if (p.pointerBits < SlotMap::kMinPointerBits || p.pointerBits > SlotMap::kMaxPointerBits)
-        chunks.fail(FindingId::formParameter,
-                    "pointers of " + std::to_string(p.pointerBits) + " bits: 2 to 10 are known");
+        chunks.fail(FindingId::formParameter, "pointers have " + std::to_string(p.pointerBits) +
+                                                  " bits, but only 2 to 10 are possible");
     if (!std::has_single_bit(p.lineSlots) || p.lineSlots > SlotMap::kMaxLineSlots)
         chunks.fail(FindingId::formParameter,
-                    "lines of " + std::to_string(p.lineSlots) + " slots: no power of two up to 64");
+                    "lines have " + std::to_string(p.lineSlots) + " slots, not a power of two up to 64");
     if (p.slots > 0xFFFFFFFF) chunks.fail(FindingId::formParameter, "more than 2^32 - 1 slots");
     return p;
 }
 
-/// Checks whatever must hold before the tree can be decoded at all, and finds each record's slot.
+/// Checks what decoding relies on, and finds each record's slot. The decoded tree may still be invalid.
 class SlotCheck {
   public:
     SlotCheck(ChunkSequence& chunks, const QuantizedShortForm& form)
@@ -55,12 +55,12 @@ class SlotCheck {
         for (uint32_t slot = 0; slot < slots.size(); ++slot) {
             const ShortRecord& record = slots[slot];
             if (!clusters_[slot].isReached) {
-                if (!record.isEmpty()) fail(FindingId::sharedChildren, slot, "belongs to no parent");
+                if (!record.isEmpty()) fail(FindingId::sharedChildren, slot, "does not belong to a parent");
                 continue;
             }
             if (clusters_[slot].firstSlot == slot) started = slot;
             if (clusters_[slot].firstSlot != started)
-                fail(FindingId::slots, slot, "is of another cluster than the slots around it");
+                fail(FindingId::slots, slot, "belongs to another cluster than the slots around it");
             if (record.isGlue()) {
                 followGlue(slot, record);
             } else {
@@ -90,7 +90,7 @@ class SlotCheck {
         const uint64_t target = uint64_t(glue.line()) * form_.lineSlots();
         if (target <= slot || target >= form_.slots().size() || form_.slots()[target].isGlue())
             fail(FindingId::childIndex, slot,
-                 named("leads to slot", target) + ": not behind it, or no record");
+                 named("leads to slot", target) + ", which is not after it or does not hold a record");
         reach(uint32_t(target), {uint32_t(target), glue.firstEntry()});
     }
     void followReference(uint32_t slot, uint32_t reference) {
@@ -99,14 +99,14 @@ class SlotCheck {
             const uint64_t target = uint64_t(cluster.firstSlot) + reference;
             if (target <= slot || target >= form_.slots().size() || form_.slots()[target].isEmpty())
                 fail(FindingId::childIndex, slot,
-                     named("has a child in slot", target) + ": not behind it, or empty");
+                     named("has a child in slot", target) + ", which is not after it or is empty");
             reach(uint32_t(target), cluster);
             return;
         }
         const uint32_t first = form_.firstEntryOf(cluster.firstEntry, reference);
         if (first >= form_.primitives().size() || form_.countFrom(first) > ShortRecord::kMaxLeafSize)
             fail(FindingId::leafRange, slot,
-                 named("has a leaf of entries from", first) + " on: too many, or none");
+                 named("has a leaf of entries from", first) + " on, which is empty or too large");
     }
 
     ChunkSequence& chunks_;
@@ -120,7 +120,7 @@ SharedArray<uint32_t> readLastEntries(ChunkSequence& chunks, uint64_t references
         chunks.expectArray<uint32_t>(kLastEntriesType, QuantizedShortForm::lastEntryWords(references));
     if (words[words.size() - 1] != 0 ||
         (references % 32 != 0 && words[references / 32] >> references % 32 != 0))
-        chunks.fail(FindingId::payloadReserved, "a bit of no entry is not zero");
+        chunks.fail(FindingId::payloadReserved, "unused bits of LAST must be zero");
     return words;
 }
 
@@ -159,12 +159,13 @@ QuantizedShortForm FormChunks<QuantizedShortForm>::read(ChunkSequence& chunks,
     const SlotCheck check(chunks, form);
     const size_t records = check.recordSlots().size();
     if (2 * records + 2 != parameters.nodeSlots)
-        chunks.fail(FindingId::treeCounts, std::to_string(records) + " records are not of " +
-                                               std::to_string(parameters.nodeSlots) + " node slots");
+        chunks.fail(FindingId::treeCounts, std::to_string(records) + " records do not make the " +
+                                               std::to_string(parameters.nodeSlots) +
+                                               " node slots that TREE states");
     if (records == 0 && form.countFrom(0) != parameters.references)
         chunks.fail(FindingId::leafRange, "the root does not own all entries");
     constexpr size_t nodeSize = sizeof(ShortRecord) / 2;
-    judgeForm(chunks, form, parameters, scene, [&](uint64_t node) {
+    validateForm(chunks, form, parameters, scene, [&](uint64_t node) {
         if (node < 2) return NodesPlace{kNodesType, nodesOffset, nodeSize};
         const uint32_t slot = check.recordSlots()[node / 2 - 1];
         return NodesPlace{kNodesType, nodesOffset + slot * sizeof(ShortRecord) + node % 2 * nodeSize,

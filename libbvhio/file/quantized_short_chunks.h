@@ -1,4 +1,4 @@
-// How the quantized-short form is stored: format-spec/quantized-short.md.
+// The storage of the quantized-short form: format-spec/quantized-short.md.
 #pragma once
 
 #include "compress/quantized_short_form.h"

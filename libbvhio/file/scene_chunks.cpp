@@ -51,7 +51,7 @@ SceneParameters readParameters(ChunkSequence& chunks) {
                                                 std::to_string(p.instances.instances) +
                                                 " instances are out of range");
     if (isInstanced && p.encoding == kDracoEncoding)
-        chunks.fail(FindingId::treeOfInstances, "a scene with instances has its geometry in Draco");
+        chunks.fail(FindingId::treeOfInstances, "a scene with instances cannot be stored with Draco");
     if (p.encoding > kDracoEncoding)
         chunks.fail(FindingId::unknownGeometryEncoding,
                     "unknown geometry encoding " + std::to_string(p.encoding) + ": use a newer bvhx");
@@ -74,7 +74,7 @@ std::vector<Geometry> readGeometries(ChunkSequence& chunks, const SceneParameter
     if (triangles != parameters.triangles || nameBytes != parameters.nameBytes)
         chunks.fail(FindingId::geometryRuns, "the geometries have " + std::to_string(triangles) +
                                                  " triangles and " + std::to_string(nameBytes) +
-                                                 " bytes of names, the scene " +
+                                                 " bytes of names, but SCEN states " +
                                                  std::to_string(parameters.triangles) + " and " +
                                                  std::to_string(parameters.nameBytes));
     for (size_t i = 0; i < geometries.size(); ++i) {
@@ -85,7 +85,7 @@ std::vector<Geometry> readGeometries(ChunkSequence& chunks, const SceneParameter
     return geometries;
 }
 
-/// Reads vertices and triangles out of the Draco chunk.
+/// Reads vertices and triangles from the Draco chunk.
 void readDraco(ChunkSequence& chunks, const SceneParameters& parameters, Scene& scene) {
     const Bytes payload = chunks.expect(kDracoType, ChunkSequence::kAnySize);
     DracoMesh mesh;
@@ -102,13 +102,13 @@ void readDraco(ChunkSequence& chunks, const SceneParameters& parameters, Scene& 
     scene.triangles = std::move(mesh.triangles);
 }
 
-/// Findings about an array of the scene, which fills the chunk that was read last.
-void judgeArray(ChunkSequence& chunks, uint32_t type, std::vector<Finding> (*check)(const Scene&, size_t),
+/// Checks an array of the scene, which is the payload of the chunk that was read last.
+void checkArray(ChunkSequence& chunks, uint32_t type, std::vector<Finding> (*check)(const Scene&, size_t),
                 const Scene& scene) {
     if (chunks.isTrusted()) return;
     std::vector<Finding> findings = check(scene, chunks.maxPerId());
     for (Finding& finding : findings) finding.chunk = chunkTypeName(type);
-    chunks.judge(std::move(findings), chunks.payloadOffset());
+    chunks.addFindings(std::move(findings), chunks.payloadOffset());
 }
 
 }  // namespace
@@ -176,9 +176,9 @@ Scene readScene(ChunkSequence& chunks) {
         readDraco(chunks, parameters, scene);
     } else {
         scene.vertices = chunks.expectArray<Vec3>(kVerticesType, parameters.vertices);
-        judgeArray(chunks, kVerticesType, checkVertices, scene);
+        checkArray(chunks, kVerticesType, checkVertices, scene);
         scene.triangles = chunks.expectArray<TriangleIndices>(kTrianglesType, parameters.triangles);
-        judgeArray(chunks, kTrianglesType, checkTriangles, scene);
+        checkArray(chunks, kTrianglesType, checkTriangles, scene);
     }
     scene.geometries = readGeometries(chunks, parameters);
     if ((parameters.flags & kHasSourcePrimitives) != 0)
@@ -189,8 +189,8 @@ Scene readScene(ChunkSequence& chunks) {
 
 PrimitiveBounds boundsOfTriangles(const Scene& scene) {
     return [&scene](std::span<const uint32_t> primitives, Aabb* boxes) {
-        // Indices first, then the vertices that they name: two hops of scattered memory, each asked for well
-        // ahead.
+        // Each triangle takes two dependent reads of scattered memory, its indices and their vertices. Both
+        // are prefetched well ahead.
         constexpr size_t kIndicesAhead = 128, kVerticesAhead = 64;
         const TriangleIndices* triangles = scene.triangles.data();
         const Vec3* vertices = scene.vertices.data();

@@ -1,4 +1,4 @@
-// The chunks of a scene (format-spec/chunks.md 2 to 6), and the check of what they hold.
+// Reads, checks and writes the chunks of a scene (format-spec/chunks.md 2 to 6).
 #pragma once
 
 #include "file/chunks.h"
@@ -7,21 +7,22 @@
 
 namespace bvhio {
 
-/// A scene as a file gives it back, and its Draco data when it is stored so.
+/// A scene as a reader of the file will decode it, and its Draco data if it is stored with Draco.
 struct StoredScene {
     Scene scene;
     std::vector<std::byte> draco;
 };
 
-/// Encodes a scene: with Draco, vertices move to where they will be decoded, and into the order that the
-/// options say; triangles and their order stay.
+/// Encodes a scene. With Draco, vertices move to their decoded positions, and into the order of the options.
+/// Triangles and their order do not change.
 StoredScene storeScene(const Scene& scene, const WriteOptions& options);
 void writeScene(ContainerWriter& writer, const StoredScene& stored);
 
-/// Reads a scene that keeps every promise of scene/scene.h; throws FindingError otherwise.
+/// Reads a scene that keeps all rules of scene/scene.h. Throws FindingError if it breaks one.
 Scene readScene(ChunkSequence& chunks);
 
-/// The boxes of the scene's triangles, for `validate` and `refit`. The scene must outlive it.
+/// Returns a function that computes boxes of the scene's triangles, for `validate` and `refit`. The scene
+/// must outlive it.
 PrimitiveBounds boundsOfTriangles(const Scene& scene);
 
 }  // namespace bvhio

@@ -1,4 +1,4 @@
-// How the ssh form is stored: format-spec/ssh.md.
+// The storage of the ssh form: format-spec/ssh.md.
 #pragma once
 
 #include <bit>
@@ -40,24 +40,26 @@ struct FormChunks<SshForm> {
         const uint64_t nodesOffset = chunks.payloadOffset();
         SshForm form(bounds, std::move(nodes),
                      chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references));
-        judgeForm(chunks, form, parameters, scene, nodesOffset, sizeof(SshNode));
+        validateForm(chunks, form, parameters, scene, nodesOffset, sizeof(SshNode));
         return form;
     }
 
   private:
-    /// Whatever must hold before the tree can be decoded at all.
+    /// Checks what decoding relies on. The decoded tree may still be invalid.
     static void checkNode(const ChunkSequence& chunks, std::span<const SshNode> nodes, size_t i) {
         const SshNode& node = nodes[i];
         if (i == 1) {
             if (std::bit_cast<uint64_t>(node) != 0)
                 chunks.fail(FindingId::unusedSlot, "the unused slot 1 beside the root is not zero");
         } else if (node.side() > 5) {
-            chunks.fail(FindingId::nodeField,
-                        "node " + std::to_string(i) + " names side " + std::to_string(node.side()));
+            chunks.fail(FindingId::nodeField, "node " + std::to_string(i) + " changes side " +
+                                                  std::to_string(node.side()) +
+                                                  ", but a box has only sides 0 to 5");
         } else if (!node.isLeaf() && (node.left() <= i || node.left() >= nodes.size())) {
-            chunks.fail(FindingId::childIndex,
-                        "node " + std::to_string(i) + " has its children at " + std::to_string(node.left()) +
-                            ": not behind it and below " + std::to_string(nodes.size()));
+            chunks.fail(FindingId::childIndex, "node " + std::to_string(i) + " has its children at index " +
+                                                   std::to_string(node.left()) +
+                                                   ", which is not after it and below " +
+                                                   std::to_string(nodes.size()));
         }
     }
 };

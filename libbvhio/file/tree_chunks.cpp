@@ -5,8 +5,8 @@
 
 namespace bvhio {
 
-void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
-               const std::function<NodesPlace(uint64_t node)>& placeOf) {
+void validateTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
+                  const std::function<NodesPlace(uint64_t node)>& placeOf) {
     if (chunks.isTrusted()) return;
     Validation validation =
         validate(bvh, uint32_t(scene.triangles.size()),
@@ -18,14 +18,14 @@ void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& para
     }
     if (validation.findings.empty() && validation.depth != parameters.depth)
         chunks.fail(FindingId::statedDepth, "the tree has depth " + std::to_string(validation.depth) +
-                                                ", TREE states " + std::to_string(parameters.depth));
-    chunks.judge(std::move(validation.findings), 0);
+                                                ", but TREE states " + std::to_string(parameters.depth));
+    chunks.addFindings(std::move(validation.findings), 0);
 }
 
-void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
-               uint64_t nodesOffset, size_t nodeSize, uint32_t chunk) {
+void validateTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
+                  uint64_t nodesOffset, size_t nodeSize, uint32_t chunk) {
     const NodesPlace nodes{chunk, nodesOffset, nodeSize};
-    judgeTree(chunks, bvh, parameters, scene, [&](uint64_t node) { return nodes.of(node); });
+    validateTree(chunks, bvh, parameters, scene, [&](uint64_t node) { return nodes.of(node); });
 }
 
 }  // namespace bvhio

@@ -1,5 +1,5 @@
-// What the chunks of every form share (format-spec/chunks.md 7), and what a form adds: a specialisation of
-// FormChunks in a file of its own, included by file/form_chunks.cpp.
+// The common part of all forms' chunks (format-spec/chunks.md 7). Each form adds a specialization of
+// FormChunks in its own file, which file/form_chunks.cpp includes.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace bvhio {
 
-/// What every form's tree has.
+/// The fields of TREE, which a tree of any form has.
 struct TreeParameters {
     uint32_t form = 0;
     uint64_t nodeSlots = 0, references = 0;
@@ -18,12 +18,12 @@ struct TreeParameters {
     uint32_t depth = 0;
 };
 
-/// Checks a tree that was read, boxes as its form reconstructs them, against every rule of tree/bvh.h. Its
-/// nodes are records of `nodeSize` bytes from `nodesOffset` on, in a chunk of this type.
-void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
-               uint64_t nodesOffset, size_t nodeSize, uint32_t chunk = kNodesType);
+/// Checks a tree that was read, with the boxes that its form reconstructs, against every rule of tree/bvh.h.
+/// Its nodes are records of `nodeSize` bytes that start at byte `nodesOffset`, in a chunk of this type.
+void validateTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
+                  uint64_t nodesOffset, size_t nodeSize, uint32_t chunk = kNodesType);
 
-/// Where an array of nodes is in a file.
+/// The place of an array of nodes in a file.
 struct NodesPlace {
     uint32_t chunk;
     uint64_t offset;
@@ -31,23 +31,23 @@ struct NodesPlace {
 
     NodesPlace of(uint64_t node) const { return {chunk, offset + node * nodeSize, nodeSize}; }
 };
-/// The same for nodes in several arrays: `placeOf` tells where one is.
-void judgeTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
-               const std::function<NodesPlace(uint64_t node)>& placeOf);
+/// Checks a tree with nodes in several arrays. `placeOf` returns the place of a node.
+void validateTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& parameters, const Scene& scene,
+                  const std::function<NodesPlace(uint64_t node)>& placeOf);
 
-/// Checks the tree of a form as judgeTree does, with boxes as the form reconstructs them; of a trusted file
-/// it decodes nothing. `where` is what judgeTree takes behind the scene.
+/// Decodes a form's tree and checks it with validateTree, which gets `where` after the scene. Does nothing
+/// for a trusted file.
 template <class F, class... Where>
-void judgeForm(ChunkSequence& chunks, const F& form, const TreeParameters& parameters, const Scene& scene,
-               const Where&... where) {
-    if (!chunks.isTrusted()) judgeTree(chunks, form.decode(), parameters, scene, where...);
+void validateForm(ChunkSequence& chunks, const F& form, const TreeParameters& parameters, const Scene& scene,
+                  const Where&... where) {
+    if (!chunks.isTrusted()) validateTree(chunks, form.decode(), parameters, scene, where...);
 }
 
-/// How one form is stored: specialised for each, with
+/// The storage of a form. There is a specialization for each, with
 /// - kCode: TREE's form field,
-/// - parameters(form): what TREE says, but for the costs,
-/// - write(writer, form): the chunks behind TREE,
-/// - read(chunks, parameters, scene): reads those; throws FindingError unless the tree is valid.
+/// - parameters(form): returns the fields of TREE, except for the costs,
+/// - write(writer, form): writes the chunks after TREE,
+/// - read(chunks, parameters, scene): reads these. Throws FindingError unless the tree is valid.
 template <class F>
 struct FormChunks;
 

@@ -1,4 +1,4 @@
-// How the two-level form is stored: format-spec/two-level.md.
+// The storage of the two-level form: format-spec/two-level.md.
 #pragma once
 
 #include "compress/two_level_form.h"
@@ -13,7 +13,8 @@ struct FormChunks<TwoLevelForm> {
     static constexpr uint32_t kCode = chunkType("two ");
     static constexpr size_t kFormSize = 64;
     static constexpr uint32_t kMaxBlasSize = kMaxLeafSize;
-    static constexpr uint32_t kBlasSizeOfMeshes = 16;  // says nothing: they are BLASes whole
+    // The value of the field in an instanced scene, where it has no meaning: each mesh is one BLAS.
+    static constexpr uint32_t kBlasSizeOfMeshes = 16;
 
     static TreeParameters parameters(const TwoLevelForm& form) {
         if (form.isInstanced()) return parametersOfInstances(kCode, form);
@@ -79,23 +80,27 @@ struct FormChunks<TwoLevelForm> {
             chunks.fail(FindingId::treeCounts, std::to_string(counts.tlasSlots) + " slots over " +
                                                    std::to_string(counts.blases) + " BLASes of at most " +
                                                    std::to_string(blasSize) +
-                                                   " references are no top level of " +
+                                                   " references cannot form a top level of a tree of " +
                                                    std::to_string(parameters.nodeSlots) + " slots");
 
         if (hasBits) FormChunks<QuantizedForm>::checkBits(chunks, counts.bits);
         if (isOverMvh && (counts.leafSize < 1 || counts.leafSize > MvhRuns::kMaxLeafSize))
-            chunks.fail(FindingId::formParameter, "leaves of " + std::to_string(counts.leafSize) +
-                                                      " triangles in mvh BLASes: 1 to 16 are known");
+            chunks.fail(FindingId::formParameter, "leaves of mvh BLASes have " +
+                                                      std::to_string(counts.leafSize) +
+                                                      " triangles, but only 1 to 16 are possible");
 
         SharedArray<uint32_t> entries;
         LevelCounts bottom = counts;
         if (scene.isInstanced()) {
             if (counts.blases != scene.instances.size())
                 chunks.fail(FindingId::treeOfInstances,
-                            std::to_string(counts.blases) + " leaves of the top level for " +
+                            "the top level has " + std::to_string(counts.blases) + " leaves for " +
                                 std::to_string(scene.instances.size()) + " instances");
             if (isOverMvh && parameters.references != scene.triangles.size())
-                chunks.fail(FindingId::treeCounts, "mvh BLASes of meshes have each triangle once");
+                chunks.fail(FindingId::treeCounts, std::to_string(parameters.references) +
+                                                       " references for " +
+                                                       std::to_string(scene.triangles.size()) +
+                                                       " triangles, but mvh BLASes have each triangle once");
             entries = readEntries(chunks, scene);
             counts.references = entries.size();
             bottom.blases = scene.meshes.size();
@@ -111,7 +116,7 @@ struct FormChunks<TwoLevelForm> {
                 runs = runsOf(tlas);
             checkRuns(chunks, runs, std::get<MvhBlases>(blases), counts.blasSlots);
         }
-        // What places BLASes is made of geometry: only that which is sound.
+        // Instances are placed by the boxes of meshes, which only valid geometry has.
         PlacedBlases placed;
         auto primitives = chunks.expectArray<uint32_t>(kPrimitivesType, parameters.references);
         if (scene.isInstanced() && chunks.sound())
@@ -119,13 +124,13 @@ struct FormChunks<TwoLevelForm> {
         TwoLevelForm form(std::move(tlas), std::move(blases), std::move(primitives), blasSize,
                           std::move(placed));
         if (scene.isInstanced()) {
-            if (chunks.sound()) judgeInstances(chunks, form, parameters, scene, tlasPlace, blasPlace);
+            if (chunks.sound()) validateInstances(chunks, form, parameters, scene, tlasPlace, blasPlace);
             return form;
         }
-        judgeForm(chunks, form, parameters, scene,
-                  [&, ofTlas = tlasPlace, ofBlas = blasPlace](uint64_t node) {
-                      return node < counts.tlasSlots ? ofTlas.of(node) : ofBlas.of(node - counts.tlasSlots);
-                  });
+        validateForm(
+            chunks, form, parameters, scene, [&, ofTlas = tlasPlace, ofBlas = blasPlace](uint64_t node) {
+                return node < counts.tlasSlots ? ofTlas.of(node) : ofBlas.of(node - counts.tlasSlots);
+            });
         return form;
     }
 
@@ -133,7 +138,7 @@ struct FormChunks<TwoLevelForm> {
     static constexpr bool isMvh(uint32_t code) { return code == LevelChunks<MvhBlases>::kCode; }
     static constexpr bool isQuantized(uint32_t code) { return code == FormChunks<QuantizedForm>::kCode; }
 
-    /// What the leaves of a top level own.
+    /// Returns the entries that each leaf of a top level owns.
     static std::vector<PrimitiveRange> runsOf(const TwoLevelForm::Tlas& tlas) {
         const Bvh top = std::visit([](const auto& level) { return level.form().decode(); }, tlas);
         std::vector<PrimitiveRange> runs;
@@ -142,7 +147,7 @@ struct FormChunks<TwoLevelForm> {
         return runs;
     }
 
-    /// Whether the trees over the runs have as many slots as TREE says, and bytes that serve none are zero.
+    /// Checks that the trees over the runs have as many slots as TREE states, and that unused bytes are zero.
     static void checkRuns(const ChunkSequence& chunks, std::span<const PrimitiveRange> runs,
                           const MvhBlases& blases, uint64_t blasSlots) {
         const MvhRuns& shape = blases.shape();
@@ -154,7 +159,8 @@ struct FormChunks<TwoLevelForm> {
         }
         if (slots != blasSlots)
             chunks.fail(FindingId::treeCounts, "the BLASes have " + std::to_string(slots) +
-                                                   " slots, TREE leaves " + std::to_string(blasSlots));
+                                                   " slots, but TREE leaves them " +
+                                                   std::to_string(blasSlots));
         std::vector<bool> serves(blases.codes().size());
         while (!waiting.empty()) {
             const MvhRun run = waiting.back();
@@ -167,10 +173,10 @@ struct FormChunks<TwoLevelForm> {
         for (size_t i = 0; i < serves.size(); ++i)
             if (!serves[i] && blases.codes()[i] != 0)
                 chunks.fail(FindingId::payloadReserved,
-                            "byte " + std::to_string(i) + " serves no node and is not zero");
+                            "byte " + std::to_string(i) + " belongs to no node, so it must be zero");
     }
 
-    /// Reads the level whose form has the code, and tells where its nodes are.
+    /// Reads a level of the form with this code, and returns it and the place of its nodes.
     template <class Variant, size_t I = 0>
     static std::pair<Variant, NodesPlace> readLevel(ChunkSequence& chunks, uint32_t code,
                                                     const LevelCounts& counts) {

@@ -1,7 +1,7 @@
 // The bottom level of the two-level form: many trees of one form, whose nodes share one array.
 //
-// Roots have nothing but what a ray needs to go on from there: 4 or 8 bytes in an array of their own. Their
-// boxes are those of the top level's leaves. (The roots of compress/mvh_blases.h need not even that.)
+// A root holds only what a ray needs to continue from there: 4 or 8 bytes in an array of their own. Its box
+// is that of the top level's leaf. (The roots of compress/mvh_blases.h need no bytes at all.)
 #pragma once
 
 #include "compress/aabb_form.h"
@@ -12,9 +12,9 @@
 
 namespace bvhio {
 
-/// BLASes in a form whose nodes name their children. Links says what is special to the form:
-/// - Form, Root: an element of the array of roots,
-/// - kMaxLeafSize: of the form,
+/// BLASes in a form whose nodes refer to their children. Links has the details of the form:
+/// - Form, and Root: an element of the array of roots,
+/// - kMaxLeafSize: the limit of the form,
 /// - encode, decode: as below.
 template <class Links>
 class LinkedBlases {
@@ -25,7 +25,7 @@ class LinkedBlases {
     static constexpr bool kAreRuns = false;
     static constexpr uint32_t kMaxLeafSize = Links::kMaxLeafSize;
 
-    /// `form` has nodes only: those below all roots.
+    /// `form` has only nodes: those below the roots of all trees.
     LinkedBlases(SharedArray<Root> roots, Form form) : roots_(std::move(roots)), form_(std::move(form)) {}
 
     /// Of trees that have the boxes of `places` at their roots. Throws Error{unsupported} where the form
@@ -38,7 +38,7 @@ class LinkedBlases {
 
     const SharedArray<Root>& roots() const { return roots_; }
     const Form& form() const { return form_; }
-    /// The nodes, then the roots.
+    /// Returns the bytes of the nodes and the roots.
     size_t nodeBytes() const { return form_.nodeBytes() + roots_.size() * sizeof(Root); }
 
   private:
@@ -46,7 +46,7 @@ class LinkedBlases {
     Form form_;
 };
 
-/// What a root says of its children, as a node does.
+/// A root: the fields of a Node without its box.
 struct AabbRoot {
     uint32_t first, primitiveCount;
 };
@@ -63,7 +63,7 @@ struct AabbLinks {
 
 struct SshLinks {
     using Form = SshForm;
-    using Root = uint32_t;  // the word of a node whose plane says nothing
+    using Root = uint32_t;  // the word of a node; its plane is not needed
     static constexpr uint32_t kMaxLeafSize = SshNode::kMaxLeafSize;
 
     static LinkedBlases<SshLinks> encode(const Forest& forest, const RootPlaces& places, size_t references,
@@ -71,7 +71,7 @@ struct SshLinks {
     static Forest decode(const LinkedBlases<SshLinks>& blases, const RootPlaces& places);
 };
 
-/// Boxes are relative to the root's.
+/// BLASes in the quantized form, with boxes relative to the root's box.
 struct QuantizedLinks {
     using Form = QuantizedForm;
     using Root = QuantizedRoot;

@@ -1,9 +1,9 @@
-// The boxes of forms that store a child's planes as fractions of its parent's box: what exactly such a box
-// is. A decoder must follow this bit by bit: binary64, round to nearest, no contraction.
+// The exact boxes of forms that store a child's planes as fractions of its parent's box. A decoder must
+// compute them bit by bit like this: binary64, round to nearest, no contraction.
 //
-// Planes are held as insets, how far they lie inside the root's box, so that rounding does not depend on
-// where in space the scene lies: it is relative to the scene's size (trace/ray_frame.h relies on that). A
-// fraction of 0 keeps a plane exactly.
+// A plane is held as an inset: its distance from the same side of the root's box, inwards. So rounding errors
+// are relative to the scene's size, and do not depend on where in space the scene lies (trace/ray_frame.h
+// relies on that). A fraction of 0 keeps a plane exactly.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace bvhio {
 
-/// How far the sides of a node's box lie inside those of the root's; all 0 is the root's box itself.
+/// The insets of a node's box, for each side. All of them are 0 for the root's box itself.
 struct InsetBox {
     double min[3] = {}, max[3] = {};
 };
@@ -26,13 +26,13 @@ class InsetFrame {
     }
 
     const Aabb& bounds() const { return bounds_; }
-    /// Of a box, along an axis.
+    /// Returns the size of a box along an axis.
     double size(const InsetBox& box, int axis) const { return (size_[axis] - box.min[axis]) - box.max[axis]; }
-    /// The coordinate of a side, by its inset.
+    /// Return the coordinate of a side with this inset.
     double minPlane(double inset, int axis) const { return bounds_.min[axis] + inset; }
     double maxPlane(double inset, int axis) const { return bounds_.max[axis] - inset; }
 
-    /// The insets of a box within the root's: at most what they are exactly.
+    /// Returns the insets of a box in the root's box, rounded down: the box never shrinks.
     InsetBox insets(const Aabb& box) const {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         InsetBox result;
@@ -47,7 +47,7 @@ class InsetFrame {
         return result;
     }
 
-    /// The largest box of floats that lies in the box: every box of floats that lies in it lies in that.
+    /// Returns the largest box of floats in the box. It holds every box of floats in the box.
     Aabb floats(const InsetBox& box) const {
         Aabb result;
         for (int axis = 0; axis < 3; ++axis) {
@@ -57,7 +57,7 @@ class InsetFrame {
         return result;
     }
 
-    /// The least float that is not below `x`, never -0.
+    /// Returns the least float that is not below `x`, never -0.
     static float upwards(double x) {
         const auto nearest = float(x);
         const float result =

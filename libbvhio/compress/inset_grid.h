@@ -1,5 +1,5 @@
-// The planes of two siblings as insets from their parent's, for the forms whose records share them: a Record
-// has inset(side), isRights(side) and setPlane(side, inset, isRights), sides being min x, y, z, max x, y, z.
+// The planes of two siblings as insets from their parent's, for the forms whose records share them. A Record
+// has inset(side), isRights(side) and setPlane(side, inset, isRights). Sides are min x, y, z, max x, y, z.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 
 namespace bvhio {
 
-/// A box whose sides may be moved inwards by steps, up to 2^bits - 1 of them. Coordinates of sides 3 to 5 are
-/// negated here: for all sides larger ones are further inside.
+/// A box whose sides can be moved inwards by up to 2^bits - 1 steps. Coordinates of sides 3 to 5 are negated
+/// here, so that larger coordinates are further inside for all sides.
 class InsetGrid {
   public:
-    /// `frame` is what insets are measured from, `bounds` lies in it: the box of the tree's root.
+    /// Insets are measured from `frame`. `bounds`, the box of the tree's root, lies in it.
     InsetGrid(const InsetFrame& frame, const InsetBox& box, const Aabb& bounds, uint32_t bits)
         : box_(box), bounds_(bounds), most_((1u << bits) - 1) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -23,7 +23,7 @@ class InsetGrid {
         }
     }
 
-    /// The box of a child.
+    /// Returns the box of a child.
     template <class Record>
     InsetBox child(const Record& record, uint32_t child) const {
         InsetBox result = box_;
@@ -34,8 +34,8 @@ class InsetGrid {
         return result;
     }
 
-    /// Sets the planes of a record for two boxes: each as far inwards as the box allows that lies further
-    /// inside.
+    /// Sets the planes of a record for two boxes. On each side, the box that lies further inside gets the
+    /// plane, as far inwards as it still holds the box.
     template <class Record>
     void setPlanes(Record& record, const Aabb& left, const Aabb& right) const {
         double stepsOfUnit[3];
@@ -51,8 +51,8 @@ class InsetGrid {
             uint32_t steps = estimate < most_ ? uint32_t(estimate) : most_;
             while (steps > 0 && plane(side, steps) > target) --steps;
             while (steps < most_ && plane(side, steps + 1) <= target) ++steps;
-            // Where that takes no float off the box the plane stays: so what a decoded tree has is encoded to
-            // itself.
+            // Keep the parent's plane if the new one would cut no float off the box. So a decoded tree is
+            // encoded to the same records again.
             if (plane(side, steps) > outermost) record.setPlane(side, steps, isRights);
         }
     }

@@ -40,7 +40,7 @@ bool holds(const InsetFrame& frame, const InsetBox& box, const Aabb& inner) {
     return holds;
 }
 
-/// The code that leaves the least area of a box that still holds `inner`, which the box does.
+/// Returns the code that shrinks `box` to the least area that still holds `inner`. The box holds it uncut.
 uint32_t bestCode(const InsetFrame& frame, const InsetBox& box, const Aabb& inner) {
     uint32_t best = 0;
     double least = areaOf(frame, box);
@@ -66,15 +66,16 @@ class Builder {
     Builder(const MvhRuns& shape, const InsetFrame& frame, uint8_t* codes)
         : shape_(shape), frame_(frame), codes_(codes) {}
 
-    /// Puts the run's references, which the box holds, into the order of its leaves, and writes its codes.
-    /// Large parts are built side by side.
+    /// Puts the run's references into the order of its leaves, and writes the codes. The box must hold the
+    /// references. Large parts are built in parallel.
     void build(const MvhRun& run, const InsetBox& box, std::span<Reference> references) {
         const auto byPrimitive = [](const Reference& a, const Reference& b) {
             return a.primitive < b.primitive;
         };
         if (run.isLeaf()) return std::sort(references.begin(), references.end(), byPrimitive);
-        // Each axis by centers, low and high sides. Of the split that serves best the order is kept: the one
-        // of least count * (area as coded + twice the area as it should be).
+        // Sort along each axis by the centers, the low and the high sides of boxes. Keep the order of the
+        // best split: the one with the least sum of count * (area as coded + 2 * exact area) over the two
+        // parts.
         const size_t half = shape_.left(run).count;
         double least = std::numeric_limits<double>::infinity();
         uint32_t codes[2] = {};
@@ -102,6 +103,7 @@ class Builder {
                     std::copy(references.begin(), references.end(), best.begin());
                 }
             }
+        // Write the codes, and build both parts.
         std::copy(best.begin(), best.end(), references.begin());
         codes_[run.codes()] = uint8_t(codes[0] | codes[1] << 4);
         const auto buildLeft = [&] {
@@ -116,7 +118,7 @@ class Builder {
         others.wait();
     }
 
-    /// Only writes the codes: the references are in order.
+    /// Writes the codes of references that already are in order.
     void code(const MvhRun& run, const InsetBox& box, std::span<const Reference> references) {
         if (run.isLeaf()) return;
         const std::span<const Reference> left = references.first(shape_.left(run).count),
@@ -142,7 +144,7 @@ class Builder {
     uint8_t* codes_;
 };
 
-/// Decodes one tree after the other, its nodes below the root pair by pair.
+/// Decodes the trees one after another. The nodes below each root are appended in pairs.
 class Decoder {
   public:
     Decoder(const MvhRuns& shape, const RootPlaces& places, std::span<const uint8_t> codes,
@@ -186,7 +188,8 @@ MvhBlases MvhBlases::encode(uint32_t leafSize, const RootPlaces& places, std::sp
     const MvhRuns shape(leafSize);
     Buffer<uint8_t> codes(shape.byteCount(primitives.size()));
     std::fill_n(codes.data(), codes.size(), uint8_t(0));
-    const size_t grain = places.frames.size() == 1 ? 256 : 1;  // trees of meshes may be large
+    // Trees of meshes may be large, so each of them is a task.
+    const size_t grain = places.frames.size() == 1 ? 256 : 1;
     parallelChunks(places.runs.size(), grain, [&](size_t begin, size_t end) {
         std::vector<Reference> references;
         for (size_t i = begin; i < end; ++i) {

@@ -20,26 +20,26 @@
 
 namespace bvhio {
 
-/// A node: the run of primitives below it, and the leaves that these are in.
+/// A node: the run of primitives below it, and how many leaves they fill.
 struct MvhRun {
     uint32_t first, count;
     uint32_t slot;  // first / leafSize, rounded down
     uint32_t leaves;
 
     BVHIO_INLINE bool isLeaf() const { return leaves <= 1; }
-    /// Of an inner node: the leaves below its left child, and its children's byte.
+    /// Of an inner node: the number of leaves below its left child, and the index of its children's byte.
     BVHIO_INLINE uint32_t leftLeaves() const { return (leaves + 1) / 2; }
     BVHIO_INLINE uint32_t codes() const { return slot + leftLeaves(); }
-    /// How many nodes there are below this one.
+    /// Returns the number of nodes below this one.
     size_t slotsBelow() const { return 2 * (size_t(leaves) - 1); }
 };
 
-/// The shape of trees whose leaves have a given number of primitives; the last one, what is left.
+/// The shape of trees whose leaves have a given number of primitives. The last leaf has the rest.
 ///
-/// Inner nodes are split behind the first half of their leaves, the larger half, at a primitive `middle`. The
-/// codes of the two children are byte middle / leafSize of the array, the left child's in the lower bits.
-/// Bytes are never shared: splits within a tree are leafSize or more apart, and the first split of a tree
-/// lies at least that far behind its first primitive, which is behind every split of the trees before.
+/// An inner node is split after the first half of its leaves, the larger half, at a primitive `middle`. The
+/// codes of the two children are byte middle / leafSize of the array, the left child's in the lower bits. No
+/// two nodes share a byte: splits within a tree are leafSize or more apart, and the first split of a tree is
+/// at least leafSize after its first primitive, which is after every split of the trees before.
 class MvhRuns {
   public:
     static constexpr uint32_t kMaxLeafSize = 16;
@@ -52,7 +52,7 @@ class MvhRuns {
     BVHIO_INLINE MvhRun root(PrimitiveRange run) const {
         return {run.first, run.count, inLeaves(run.first), inLeaves(run.count + leafSize_ - 1)};
     }
-    /// The children of an inner node: nothing is divided on the way down.
+    /// Return the children of an inner node, without a division.
     BVHIO_INLINE MvhRun left(const MvhRun& run) const {
         return {run.first, run.leftLeaves() * leafSize_, run.slot, run.leftLeaves()};
     }
@@ -61,27 +61,27 @@ class MvhRuns {
         return {run.first + left * leafSize_, run.count - left * leafSize_, run.slot + left,
                 run.leaves - left};
     }
-    /// A byte for every leaf that so many primitives could fill.
+    /// Returns the size of the array of codes: one byte for each leaf that the primitives could fill.
     size_t byteCount(size_t primitives) const { return (primitives + leafSize_ - 1) / leafSize_; }
 
   private:
     static constexpr uint32_t kShift = 34;
 
-    /// n / leafSize, rounded down, for n below 2^30: by the reciprocal it is too large by less than n / 2^34,
-    /// which is below 1 / 16 and so never reaches the next whole number.
+    /// Returns n / leafSize, rounded down, for n below 2^30. The product with the reciprocal is too large by
+    /// less than n / 2^34. That is below 1 / 16, so it never reaches the next whole number.
     BVHIO_INLINE uint32_t inLeaves(uint32_t n) const { return uint32_t(n * reciprocal_ >> kShift); }
 
     uint32_t leafSize_;
     uint64_t reciprocal_;  // 2^34 / leafSize, rounded up
 };
 
-/// What each code takes off the box, as parts of its size.
+/// How far a code moves each side of the box inwards, as a part of the box's size.
 struct MvhCut {
     float min[3], max[3];
 };
 inline constexpr uint32_t kMvhCodes = 16;
-/// Code 0 keeps the box. Codes 1 + 5 a to 5 + 5 a cut along axis a: 7/16 or 1/4 off the low side, 7/16 or 1/4
-/// off the high side, 1/4 off both.
+/// Returns what a code cuts. Code 0 keeps the box. Codes 1 + 5 a to 5 + 5 a cut along axis a: 7/16 or 1/4 off
+/// the low side, 7/16 or 1/4 off the high side, 1/4 off both.
 constexpr MvhCut mvhCut(uint32_t code) {
     MvhCut cut{};
     if (code == 0) return cut;
@@ -92,7 +92,7 @@ constexpr MvhCut mvhCut(uint32_t code) {
     if (kind == 4) cut.min[axis] = cut.max[axis] = kSmall;
     return cut;
 }
-/// The box of a child.
+/// Returns the box of a child with this code.
 InsetBox cutBox(const InsetFrame& frame, const InsetBox& box, uint32_t code);
 
 class MvhBlases {
@@ -102,10 +102,10 @@ class MvhBlases {
 
     MvhBlases(uint32_t leafSize, SharedArray<uint8_t> codes) : shape_(leafSize), codes_(std::move(codes)) {}
 
-    /// Of the trees with leaves of this size over runs of `primitives` at `places`; puts these into the order
-    /// of their trees. `boxes` has for each entry of `primitives` the box that must hold it, `ordered` where
-    /// a run starts that is in such an order already its length, else 0. Throws Error{unsupported} above 2^29
-    /// references. Parallel.
+    /// Builds trees with leaves of this size over the runs of `primitives` at `places`, and puts the
+    /// primitives into the order of their trees. `boxes` has for each entry of `primitives` the box that must
+    /// hold it. `ordered` has, at the start of a run that already is in a tree's order, the run's length, and
+    /// 0 elsewhere. Throws Error{unsupported} above 2^29 references. Parallel.
     static MvhBlases encode(uint32_t leafSize, const RootPlaces& places, std::span<uint32_t> primitives,
                             std::span<const Aabb> boxes, std::span<const uint32_t> ordered);
     Forest decode(const RootPlaces& places) const;

@@ -7,7 +7,7 @@
 namespace bvhio {
 namespace {
 
-/// Where a node is in the canonical tree, whose slot 1 is unused.
+/// Returns the slot of a node in the canonical tree, whose slot 1 is unused.
 uint32_t slotOf(uint32_t node) {
     return node == 0 ? 0 : node + 1;
 }
@@ -30,14 +30,14 @@ std::vector<MvhRule> candidates(const EncodeOptions& options) {
     return rules;
 }
 
-/// References in the order of a tree's leaves, and what cuts it.
+/// References in the order of a tree's leaves, and the rule that cuts its boxes.
 struct Tree {
     std::vector<MvhReference> references;
     MvhCoder coder;
     MvhRule rule;
     double cost = 0;
 
-    /// Takes the cheapest of the rules.
+    /// Picks the rule with the least SAH cost.
     Tree(std::vector<MvhReference> given, const Aabb& root, uint32_t leafSize, std::span<const MvhRule> rules)
         : references(std::move(given)), coder(references, root, leafSize) {
         std::vector<double> costs(rules.size());
@@ -74,7 +74,7 @@ Tree bestTree(const std::vector<MvhReference>& references, const Aabb& root, Enc
     return best;
 }
 
-/// Whether a tree is one that the form decodes to.
+/// Returns whether a tree has the shape of a tree that this form decodes to.
 bool hasShape(const Bvh& bvh, const MvhShape& shape) {
     if (bvh.nodes.size() != size_t(shape.nodeCount()) + 1 || bvh.primitives.size() != shape.primitiveCount())
         return false;

@@ -1,5 +1,5 @@
-// The mvh form: a Minimal BVH over the whole scene, two bits a node. compress/mvh_tree.h has the tree itself,
-// the paper it is from and the departures.
+// The mvh form: a Minimal BVH over the whole scene, with two bits per node. compress/mvh_tree.h has the tree
+// itself, its paper and the departures.
 #pragma once
 
 #include "compress/form_concept.h"
@@ -30,7 +30,7 @@ class MvhForm {
     const MvhParameters& parameters() const { return parameters_; }
     const MvhTables& tables() const { return tables_; }
     const MvhShape& shape() const { return shape_; }
-    /// How many words the nibbles of a tree of this shape take: two bits a node, the root's unused.
+    /// Returns the words that hold a tree's nibbles: two bits per node; the root's are unused.
     static size_t wordCount(const MvhShape& shape) { return (size_t(shape.leafCount()) + 7) / 8; }
     const SharedArray<uint32_t>& words() const { return words_; }
     const SharedArray<uint32_t>& primitives() const { return primitives_; }

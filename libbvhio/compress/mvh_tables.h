@@ -1,4 +1,4 @@
-// What steps through trees of the mvh form look up: the cuts of children by their codes.
+// Look-up tables for steps through trees of the mvh form: the cuts of children by their codes.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace bvhio {
 
-/// What steps look up, by the rule alone: one for all trees that share it.
+/// The tables of a rule. All trees with the same rule share them.
 class MvhTables {
   public:
     explicit MvhTables(const MvhRule& rule) : axes(rule.axes) {
@@ -18,8 +18,8 @@ class MvhTables {
             }
     }
 
-    /// For each lane: how far a ray that goes up an axis has the near plane moved, as a part of the size;
-    /// which bits make that the far plane's; and all ones where the code is none.
+    /// For each lane: `low` is how far the near plane moves for a ray that goes up the axis, as a part of the
+    /// box's size; xor with `swap` gives the same for the far plane; `none` is all ones if the code is none.
     template <size_t lanes>
     struct Lanes {
         alignas(4 * lanes) std::array<float, lanes> low;

@@ -1,19 +1,19 @@
-// The core of the mvh form: one Minimal BVH, its shape, its cuts and how a ray steps through it.
+// The core of the mvh form: the shape of a Minimal BVH, its codes, and the cuts that they stand for.
 //
 // P. Bauszat, M. Eisemann, M. Magnor, "The Minimal Bounding Volume Hierarchy", VMV 2010. The tree is complete
-// and its nodes are implicit: node i has the children 2 i + 1 and 2 i + 2, and a code of two bits, by which
-// its box follows from its parent's. Along the longest axis of the parent's box a code moves the low plane
-// inwards, the high plane, both or neither, each by a fixed part of the box's size: zeta.
+// and its nodes are implicit: node i has the children 2 i + 1 and 2 i + 2. A code of two bits per node gives
+// its box from its parent's: along the longest axis of the parent's box, it moves the low plane inwards, the
+// high plane, both or neither, each by a fixed part of the box's size: zeta.
 //
-// Departures: a cut of both planes has a zeta of its own. Below a node that could not be cut the next longest
-// axis has its turn, where the paper tries the longest again and again (architecture: -40% SAH cost). Leaves
-// lie in the primitive array from left to right, so that a subtree owns one run of it. The last leaf is
-// short, where the paper stores triangles twice.
+// Departures: a cut of both planes has a zeta of its own. Below a node that could not be cut, the next
+// longest axis has its turn; the paper tries the longest again and again (architecture: -40% SAH cost).
+// Leaves lie in the primitive array from left to right, so that a subtree owns one run of it. The last leaf
+// is short; the paper stores triangles twice instead.
 //
 // Many trees can share one array of codes and one of primitives. A tree over the run [first, first + count)
-// of primitives has the nibbles from mvhFirstNibble(first, n) on: node i's is the i-th of them, its left
-// child's code in the two low bits, its right child's in the two high ones. These never overlap: with leaves
-// of n primitives a tree has ceil(count / n) - 1 inner nodes, and
+// of primitives has the nibbles from mvhFirstNibble(first, n) on. The i-th of them is node i's, with its left
+// child's code in the two low bits and its right child's in the two high bits. The nibbles of trees never
+// overlap: with leaves of n primitives, a tree has ceil(count / n) - 1 inner nodes, and
 //     ceil(count / n) - 1 <= floor(count / n) <= ceil((first + count) / n) - ceil(first / n).
 // So all trees over P primitives together need ceil(P / n) nibbles and no table.
 #pragma once
@@ -25,13 +25,13 @@
 
 namespace bvhio {
 
-/// How codes cut.
+/// How far codes cut, and along which axes.
 struct MvhRule {
     static constexpr float kMaxZeta = 0.99f, kMaxZetaOfBoth = 0.5f;
 
-    float zeta = 0.45f,
-          zetaOfBoth = 0.3f;  // the part of a box's size that a cut of one plane takes, and each of two
-    uint32_t axes = 3;        // how many axes take turns where nodes cannot be cut; 1: always the longest
+    // How far a cut moves a plane, as a part of the box's size: if it moves one plane, and if it moves both.
+    float zeta = 0.45f, zetaOfBoth = 0.3f;
+    uint32_t axes = 3;  // how many axes take turns if nodes cannot be cut; 1: always the longest
     bool operator==(const MvhRule&) const = default;
 };
 
@@ -59,19 +59,19 @@ class MvhShape {
     uint32_t primitiveCount() const { return count_; }
     uint32_t leafCount() const { return leaves_; }
     uint32_t nodeCount() const { return 2 * leaves_ - 1; }
-    /// Nodes below this are inner ones.
+    /// Returns the number of inner nodes, which come before all leaves.
     uint32_t innerCount() const { return leaves_ - 1; }
     BVHIO_INLINE bool isLeaf(uint32_t node) const { return node >= leaves_ - 1; }
-    /// A leaf's primitives, counted from the tree's first. The last leaf has what is left.
+    /// Returns a leaf's primitives, counted from the tree's first. The last leaf has the rest.
     BVHIO_INLINE PrimitiveRange primitiveRange(uint32_t leaf) const {
         const uint32_t lowest = std::bit_ceil(leaves_) - 1;  // the first node of the deepest level
         const uint32_t first = (leaf >= lowest ? leaf - lowest : leaf - lowest + leaves_) * leafSize_;
         return {first, first + leafSize_ <= count_ ? leafSize_ : count_ - first};
     }
-    /// Edges from the root to the deepest leaf.
+    /// Returns the number of edges from the root to the deepest leaf.
     uint32_t depth() const { return uint32_t(std::bit_width(leaves_ - 1)); }
-    /// How many of the primitives under an inner node are under its left child, where `count` of them are
-    /// under the node.
+    /// Returns how many of the `count` primitives under an inner node are under its left
+    /// child.
     static uint32_t leftCount(uint32_t count, uint32_t leafSize) {
         const uint32_t leaves = (count + leafSize - 1) / leafSize;
         const uint32_t half = std::bit_ceil(leaves) / 2, deepest = 2 * (leaves - half);
@@ -82,25 +82,25 @@ class MvhShape {
     uint32_t count_, leafSize_, leaves_;
 };
 
-/// The nibble of the root of the tree over primitives from `first` on, in an array that trees share.
+/// Returns the root's nibble of the tree over primitives from `first` on, in an array that trees share.
 BVHIO_INLINE uint32_t mvhFirstNibble(uint32_t first, uint32_t leafSize) {
     return (first + leafSize - 1) / leafSize;
 }
-/// One nibble of an array of 32-bit words: the codes of a node's children.
+/// Returns one nibble of an array of 32-bit words: the codes of a node's children.
 BVHIO_INLINE uint32_t mvhNibble(const uint32_t* words, size_t nibble) {
-    uint8_t byte;  // one byte, not its word: a step needs no more
+    uint8_t byte;  // a step needs only one byte, not the whole word
     std::memcpy(&byte, reinterpret_cast<const char*>(words) + nibble / 2, 1);
     return uint32_t(byte) >> nibble % 2 * 4 & 15u;
 }
 
 enum MvhCode : uint32_t { kMvhNone = 0, kMvhLow = 1, kMvhHigh = 2, kMvhBoth = 3 };
 
-/// Where the planes of two children are along the axis that is cut, by their codes: the arithmetic that
-/// format-spec/mvh.md pins, for builders, decoder and rays alike. Of equally long axes the first is the
-/// longer.
+/// The planes of two children along the axis that is cut, by their codes. Builders, the decoder and rays all
+/// use this arithmetic, which format-spec/mvh.md fixes. Of equally long axes, the first counts as the
+/// longest.
 struct MvhCuts {
     uint32_t axis;
-    uint32_t turnOfNone;  // of a child with that code; of others it is 0
+    uint32_t turnOfNone;  // the turn of a child with code none; others have turn 0
     float low[4], high[4];
 
     BVHIO_INLINE MvhCuts(const MvhBox& parent, const MvhRule& rule) {
@@ -127,7 +127,7 @@ struct MvhCuts {
         (&box.bounds.max.x)[axis] = high[code];
         return box;
     }
-    /// The code that leaves the least of the parent's box that still holds `tight`, which the parent's does.
+    /// Returns the code that shrinks the parent's box most, but still holds `tight`, which lies in that box.
     uint32_t code(const Aabb& tight) const {
         const float min = component(tight.min, int(axis)), max = component(tight.max, int(axis));
         uint32_t best = kMvhNone;

@@ -10,7 +10,7 @@
 namespace bvhio {
 namespace {
 
-/// What a record's nodes take over: their parent's box, and the tree they are in.
+/// What the two nodes of a record inherit: their parent's box, and its tree.
 struct Parent {
     InsetBox box;
     size_t tree = 0;
@@ -20,7 +20,7 @@ InsetGrid gridIn(const RootPlaces& places, const Parent& parent, uint32_t bits) 
     return {places.frame(parent.tree), parent.box, places.bounds[parent.tree], bits};
 }
 
-/// The records of trees whose nodes below the roots are `nodes`, in slots from `firstSlot` on.
+/// Returns the records of trees whose nodes below the roots are `nodes`, in slots from `firstSlot` on.
 Buffer<QuantizedRecord> encodeRecords(std::span<const Node> roots, std::span<const Node> nodes,
                                       uint32_t firstSlot, const RootPlaces& places, uint32_t bits) {
     Buffer<QuantizedRecord> records(nodes.size() / 2);
@@ -47,7 +47,7 @@ Buffer<QuantizedRecord> encodeRecords(std::span<const Node> roots, std::span<con
     return records;
 }
 
-/// A node that a word names.
+/// Returns the node of a child with this word.
 Node nodeOf(uint32_t word, uint32_t more, const Aabb& bounds, uint32_t firstSlot) {
     if (QuantizedRecord::isLeaf(word))
         return {bounds, QuantizedRecord::firstPrimitive(word),
@@ -55,8 +55,8 @@ Node nodeOf(uint32_t word, uint32_t more, const Aabb& bounds, uint32_t firstSlot
     return {bounds, 2 * QuantizedRecord::record(word) + firstSlot, 0};
 }
 
-/// Writes the nodes that records stand for, and their boxes as insets, too, unless null: those of slots from
-/// `firstSlot` on. Children's records lie behind their parents'.
+/// Decodes records to the nodes of slots from `firstSlot` on, and writes the boxes as insets too, unless
+/// `insets` is null. Records of children come after those of their parents.
 void decodeRecords(std::span<const QuantizedRoot> roots, std::span<const QuantizedRecord> records,
                    uint32_t firstSlot, const RootPlaces& places, uint32_t bits, Node* nodes,
                    InsetBox* insets) {
@@ -78,7 +78,7 @@ void decodeRecords(std::span<const QuantizedRoot> roots, std::span<const Quantiz
     }
 }
 
-/// The place of a tree that is alone.
+/// Returns the place of a single tree.
 RootPlaces placesOf(const Aabb& bounds) {
     return {{InsetFrame(bounds)}, {bounds}, {InsetBox{}}, {}};
 }

@@ -1,13 +1,13 @@
 // The quantized form: one record for both children of an inner node, 16 bytes.
 //
 // M. Ernst, S. Woop, "Ray Tracing with Shared-Plane Bounding Volume Hierarchies", 2011: of the twelve planes
-// of two siblings six are their parent's, so a record stores one plane for each side, and a mask says which
-// child has it; the other inherits. K. Vaidyanathan, T. Akenine-Moeller, M. Salvi, "Watertight Ray Traversal
-// with Reduced Precision", HPG 2016: planes are small integers relative to the parent's box, and a ray
-// carries the parameters of the planes instead of a box.
+// of two siblings, six are their parent's. So a record stores one plane for each side and a bit that says
+// which child has it; the other child inherits. K. Vaidyanathan, T. Akenine-Moeller, M. Salvi, "Watertight
+// Ray Traversal with Reduced Precision", HPG 2016: planes are small integers relative to the parent's box,
+// and a ray carries the parameters of the planes instead of a box.
 //
-// Departures: planes are insets from the parent's side, so 0 means inherited and no sign is stored; rounding
-// is paid for by one margin a ray (trace/ray_frame.h has the proof), not at each step.
+// Departures: planes are insets from the parent's side, so 0 means inherited and no sign is stored. One
+// margin per ray covers rounding (trace/ray_frame.h has the proof), instead of one at each step.
 #pragma once
 
 #include "compress/form_concept.h"
@@ -16,26 +16,26 @@
 
 namespace bvhio {
 
-/// What an inner node says of its two children; 16 bytes, plain data, stored as is in files
+/// The two children of an inner node in 16 bytes. Plain data, stored unchanged in files
 /// (format-spec/quantized.md).
 struct alignas(16) QuantizedRecord {
     static constexpr uint32_t kMaxLeafSize = 128;
     static constexpr uint32_t kMaxReferences = 1u << 29;
     static constexpr uint32_t kMinBits = 5, kMaxBits = 8;
 
-    /// Bytes 0 to 2, 4 to 6: how far the planes min x, y, z and max x, y, z lie inside the parent's. Bytes 3
-    /// and 7: in bits 0 to 2 whose those planes are, a 1 for the right child; in bits 3 to 7 the higher part
-    /// of a leaf's size, in byte 3 for the left child.
+    /// Bytes 0 to 2 and 4 to 6: the insets of the planes min x, y, z and max x, y, z from the parent's. Bytes
+    /// 3 and 7: bits 0 to 2 are the owners of these planes, 1 for the right child; bits 3 to 7 are the high
+    /// bits of a leaf's size, the left child's in byte 3.
     uint8_t bytes[8];
     uint32_t children[2];
 
     constexpr uint32_t inset(uint32_t side) const { return bytes[side + side / 3]; }
     constexpr bool isRights(uint32_t side) const { return bytes[side < 3 ? 3 : 7] >> side % 3 & 1; }
-    /// A child in 40 bits, as a cursor holds it.
+    /// Returns a child's 8 bits above its word: with them a cursor holds the child in 40 bits.
     constexpr uint8_t more(uint32_t child) const { return bytes[3 + 4 * child]; }
 
     static constexpr bool isLeaf(uint32_t word) { return word >> 31 != 0; }
-    /// Of an inner node: its record.
+    /// Returns the record of an inner node.
     static constexpr uint32_t record(uint32_t word) { return word; }
     static constexpr uint32_t firstPrimitive(uint32_t word) { return word & (kMaxReferences - 1); }
     static constexpr uint32_t primitiveCount(uint32_t word, uint8_t more) {
@@ -54,7 +54,7 @@ struct alignas(16) QuantizedRecord {
 };
 static_assert(sizeof(QuantizedRecord) == 16);
 
-/// The root of one tree of many, as a record has a child: its word and `more`.
+/// The root of one of many trees: its word and `more`, as a record holds a child.
 struct QuantizedRoot {
     uint32_t word, more;
 };
@@ -75,7 +75,7 @@ class QuantizedForm {
     static QuantizedForm encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options);
 
     Bvh decode() const { return decode(nullptr); }
-    /// The boxes as insets, too, by node: `insets` has room for two more than twice the records.
+    /// Decodes the nodes, and their boxes as insets to `insets`, with room for 2 * records + 2 elements.
     Bvh decode(InsetBox* insets) const;
 
     /// Trees whose records share one array.
@@ -83,7 +83,7 @@ class QuantizedForm {
         SharedArray<QuantizedRoot> roots;
         SharedArray<QuantizedRecord> records;
     };
-    /// The same for the trees of a forest, which have the boxes of `places` at their roots.
+    /// Encode and decode the trees of a forest, whose roots have the boxes of `places`.
     static Trees encodeTrees(const Forest& forest, const RootPlaces& places, size_t references,
                              uint32_t bits);
     static Forest decodeTrees(const Trees& trees, const RootPlaces& places, uint32_t bits);

@@ -18,9 +18,9 @@ uint32_t pairBelow(const Node& node) {
     return node.left() / 2 - 1;
 }
 
-/// Where a slot map has each pair.
+/// The slots of each pair in a slot map.
 struct PairSlots {
-    std::vector<uint32_t> records, glue;  // kNone: none
+    std::vector<uint32_t> records, glue;  // kNone: the pair has no such slot
 
     explicit PairSlots(const Bvh& bvh) : records(bvh.nodes.size() / 2 - 1, kNone), glue(records) {
         for (size_t slot = 0; slot < bvh.slots.words.size(); ++slot) {
@@ -32,17 +32,17 @@ struct PairSlots {
                 records[word] = uint32_t(slot);
         }
     }
-    /// The slot that the parent's record refers to.
+    /// Returns the slot that the parent's record refers to.
     uint32_t named(uint32_t pair) const { return glue[pair] != kNone ? glue[pair] : records[pair]; }
     bool startsCluster(uint32_t pair) const { return pair == 0 || glue[pair] != kNone; }
 };
 
-/// Whether leaves of no cluster own more entries than references reach.
+/// Returns whether the leaf entries of every cluster are within reach of its references.
 bool entriesAreInReach(const Bvh& bvh) {
     const PairSlots at(bvh);
     uint32_t entries = 0;
     for (const uint32_t word : bvh.slots.words) {
-        if ((word & SlotMap::kGlue) != 0) continue;  // empty, too
+        if ((word & SlotMap::kGlue) != 0) continue;  // glue or empty
         if (at.startsCluster(word)) entries = 0;
         for (uint32_t child = 0; child < 2; ++child)
             entries += bvh.nodes[2 * word + 2 + child].primitiveCount;
@@ -65,7 +65,7 @@ Bvh inClusters(const Bvh& given, const EncodeOptions& options) {
     return bvh;
 }
 
-/// The last entry of each leaf, by bits; none where each leaf owns one entry.
+/// Marks the last entry of each leaf in a bitmap. Returns no bitmap if each leaf owns one entry.
 SharedArray<uint32_t> markLastEntries(const std::vector<uint32_t>& leafSizes, size_t references) {
     if (leafSizes.size() == references) return {};
     std::vector<uint32_t> words(QuantizedShortForm::lastEntryWords(references));
@@ -81,7 +81,7 @@ SharedArray<uint32_t> markLastEntries(const std::vector<uint32_t>& leafSizes, si
 
 QuantizedShortForm QuantizedShortForm::encode(const Scene&, const Bvh& given, const EncodeOptions& options) {
     if (given.primitives.size() > ShortRecord::kMaxReferences)
-        throw Error(ErrorKind::unsupported, "8-byte records name at most " +
+        throw Error(ErrorKind::unsupported, "the quantized-short form holds at most " +
                                                 std::to_string(ShortRecord::kMaxReferences) +
                                                 " references: use another --form");
     const Bvh bvh = inClusters(given, options);
@@ -91,7 +91,7 @@ QuantizedShortForm QuantizedShortForm::encode(const Scene&, const Bvh& given, co
     const PairSlots at(bvh);
     const uint32_t firstLeaf = 1u << map.pointerBits;
 
-    // Slots hold parents before their children, glue before what it leads to.
+    // Visit slots in order: parents come before their children, and glue before its cluster.
     Buffer<ShortRecord> slots(map.words.size());
     std::vector<InsetBox> boxes(at.records.size());  // of each pair's parent
     AlignedVector<uint32_t> primitives(bvh.primitives.size());
@@ -105,7 +105,7 @@ QuantizedShortForm QuantizedShortForm::encode(const Scene&, const Bvh& given, co
     };
     std::vector<uint32_t> firstOf(bvh.nodes.size());  // of leaves
     std::vector<uint32_t> waiting;                    // nodes, the next one last
-    // Of all leaves of a cluster, depth first: what is near in the tree is near in space.
+    // Appends the entries of all leaves of a cluster, depth first: what is near in the tree is near in space.
     const auto ownLeavesFrom = [&](uint32_t root) {
         waiting.assign({2 * root + 3, 2 * root + 2});
         while (!waiting.empty()) {
@@ -123,7 +123,7 @@ QuantizedShortForm QuantizedShortForm::encode(const Scene&, const Bvh& given, co
     for (size_t slot = 0; slot < slots.size(); ++slot) {
         slots[slot] = {};
         const uint32_t pair = map.words[slot];
-        if ((pair & SlotMap::kGlue) != 0) continue;  // empty, or written when its cluster is met
+        if ((pair & SlotMap::kGlue) != 0) continue;  // empty, or written when its cluster is reached
         if (at.startsCluster(pair)) {
             cluster = uint32_t(slot);
             clustersFirst = next;

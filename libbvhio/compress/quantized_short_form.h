@@ -1,11 +1,11 @@
 // The quantized form with short pointers: one record for both children of an inner node, 8 bytes.
 //
-// Planes are those of the quantized form (compress/quantized_form.h) with 6 bits. Pointers reach the slots
-// and leaves of an address cluster alone; glue records lead from one to the next (G. Liktor, K. Vaidyanathan,
-// "Bandwidth-Efficient BVH Layout for Incremental Hardware Traversal", HPG 2016).
+// Planes are those of the quantized form (compress/quantized_form.h) with 6 bits. Pointers reach only the
+// slots and leaves of their address cluster. Glue records lead from one cluster to the next (G. Liktor, K.
+// Vaidyanathan, "Bandwidth-Efficient BVH Layout for Incremental Hardware Traversal", HPG 2016).
 //
-// Departures: a reference is one number for slots and leaves alike, so none of its bits tells them apart; a
-// cluster has a run of the leaf order of its own, whose start glue records hold as well; glue has no box.
+// Departures: one number space holds both slots and leaves, so no bit of a reference distinguishes them. Each
+// cluster has its own run of the leaf order, and its glue record holds the start of the run. Glue has no box.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace bvhio {
 
-/// What a slot holds; 8 bytes, plain data, stored as is in files (format-spec/quantized-short.md).
+/// The content of a slot in 8 bytes. Plain data, stored unchanged in files (format-spec/quantized-short.md).
 class ShortRecord {
   public:
     static constexpr uint32_t kBits = 6;
@@ -25,20 +25,20 @@ class ShortRecord {
     static constexpr uint32_t kEntryBits = 27, kMaxReferences = 1u << kEntryBits;
     static constexpr uint32_t kLineBits = 26;
 
-    /// To a cluster that starts with the line and has its entries from `firstEntry` on.
+    /// Makes glue to a cluster that starts with the line and has its leaf entries from `firstEntry` on.
     static constexpr ShortRecord glue(uint32_t line, uint32_t firstEntry) {
         ShortRecord record;
         record.words_ = {line & (kInLow - 1), firstEntry | (line >> kLowBits) << kEntryBits};
         return record;
     }
 
-    /// No record of two siblings has 0 for its left child: that is its cluster's first slot.
+    /// Returns whether this is glue, or empty: no other record has the left reference 0, its cluster's start.
     constexpr bool isGlue() const { return words_[0] < kInLow; }
     constexpr bool isEmpty() const { return words_[0] == 0 && words_[1] == 0; }
     constexpr uint32_t line() const { return words_[0] | (words_[1] >> kEntryBits) << kLowBits; }
     constexpr uint32_t firstEntry() const { return words_[1] & (kMaxReferences - 1); }
 
-    /// Of a child, 0 or 1: below 2^pointerBits a slot of the cluster, else a leaf's first entry of it.
+    /// Returns the reference of child 0 or 1: below 2^pointerBits a slot of the cluster, else its leaf entry.
     constexpr uint32_t reference(uint32_t child) const { return words_[child] >> kLowBits; }
     constexpr uint32_t inset(uint32_t side) const {
         return words_[side / 3] >> kBits * (side % 3) & ((1u << kBits) - 1);
@@ -57,8 +57,8 @@ class ShortRecord {
   private:
     static constexpr uint32_t kLowBits = 32 - SlotMap::kReferenceBits, kInLow = 1u << kLowBits;
 
-    /// Of min and of max each: in bits 0 to 17 three insets, in 18 to 20 whose planes those are, a 1 for the
-    /// right child; in 21 to 31 the left child's reference, the right one's.
+    /// One word each for the min and the max sides. Bits 0 to 17: three insets. Bits 18 to 20: the owners of
+    /// these planes, 1 for the right child. Bits 21 to 31: the left, and in the other word the right reference.
     std::array<uint32_t, 2> words_{};
 };
 static_assert(sizeof(ShortRecord) == 8);
@@ -84,7 +84,7 @@ class QuantizedShortForm {
     /// triangles are halved. Throws Error{unsupported} above 2^27 references.
     static QuantizedShortForm encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options);
 
-    /// In clusters, its pairs in the order of their slots.
+    /// Decodes to a tree in clusters, with its pairs in the order of their slots.
     Bvh decode() const;
     const Aabb& bounds() const { return bounds_; }
     uint32_t pointerBits() const { return pointerBits_; }
@@ -102,18 +102,18 @@ class QuantizedShortForm {
         return slots_.size() * sizeof(ShortRecord) + lastEntries_.size() * sizeof(uint32_t);
     }
 
-    /// The least reference of a leaf.
+    /// Returns the least reference of a leaf.
     uint32_t firstLeaf() const { return firstLeaf_; }
-    /// The first slot of a cluster that starts with the line.
+    /// Returns the first slot of the cluster that starts with the line.
     uint32_t firstSlotOf(uint32_t line) const { return line << lineShift_; }
-    /// Of the bitmap: a bit for each entry of the leaf order, and a word more, so that two can be read.
+    /// Returns the size of the bitmap: one bit per leaf entry, and one more word, so that two can be read.
     static constexpr size_t lastEntryWords(size_t references) { return (references + 31) / 32 + 1; }
-    /// Of a leaf by its reference, in a cluster whose entries begin with `clustersFirst`.
+    /// Returns the first entry of a leaf, in a cluster whose entries start at `clustersFirst`.
     uint32_t firstEntryOf(uint32_t clustersFirst, uint32_t reference) const {
         return clustersFirst + (reference - firstLeaf_);
     }
-    /// The entries of the leaf that begins with `entry`, which must be one: more than kMaxLeafSize where its
-    /// last one is not marked soon enough.
+    /// Returns the size of the leaf that starts at `entry`. The entry must exist. The result exceeds
+    /// kMaxLeafSize if the leaf's last entry is not marked in time.
     uint32_t countFrom(uint32_t entry) const {
         if (lastEntries_.empty()) return 1;
         const uint32_t* words = lastEntries_.data() + entry / 32;

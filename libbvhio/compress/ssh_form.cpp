@@ -15,7 +15,7 @@ float plane(const Aabb& box, uint32_t side) {
     return side < 3 ? box.min[int(side)] : box.max[int(side) - 3];
 }
 
-/// How far inside another box a box's sides lie, by axis.
+/// How far the sides of an inner box lie inside those of an outer one, by axis.
 struct Inset {
     double low[3], high[3];
 
@@ -28,12 +28,14 @@ struct Inset {
     double larger(int axis) const { return std::max(low[axis], high[axis]); }
 };
 
-/// Moves a side of `inherited` to where `node` has it, and returns it: of a leaf, the one that leaves the
-/// least area; of an inner node, the one after which its children's own planes leave the least, for what the
-/// first plane saves they need not. Of equals the first, and none that does not move, if any does: encoding a
-/// decoded tree again changes nothing.
+/// Moves one side of `inherited` to the same side of `node`'s box, and returns the side. For a leaf it is the
+/// side that leaves the least area. For an inner node it is the side after which the best planes of both
+/// children leave the least area, since children need not save again what the node's plane has saved. Of
+/// equal sides it is the first, and never one that does not move if another does. So a decoded tree is
+/// encoded to the same nodes again.
 uint32_t carve(Aabb& inherited, const Node& node, std::span<const Node> nodes) {
-    constexpr double kOwnWeight = 0.4;  // of the node's area against its children's; by trial
+    constexpr double kOwnWeight =
+        0.4;  // the weight of the node's area against its children's; found by trial
     const bool isInner = !node.isLeaf();
     const Inset own(inherited, node.bounds);
     const Inset children[2] = {Inset(inherited, isInner ? nodes[node.left()].bounds : node.bounds),
@@ -54,7 +56,7 @@ uint32_t carve(Aabb& inherited, const Node& node, std::span<const Node> nodes) {
             if (isInner) {
                 cost *= kOwnWeight;
                 for (const Inset& child : children) {
-                    // What the child's best plane saves of the area, whichever axis it is on.
+                    // The area that the child's best plane saves, on whichever axis it is.
                     const double same = std::max(child.low[axis] - (atLow ? moved : 0),
                                                  child.high[axis] - (atLow ? 0 : moved));
                     const double saved = std::max(
@@ -73,7 +75,7 @@ uint32_t carve(Aabb& inherited, const Node& node, std::span<const Node> nodes) {
     return best;
 }
 
-/// The axis along which two boxes' centers lie furthest apart.
+/// Returns the axis along which two boxes' centers lie furthest apart.
 int separatingAxis(const Aabb& a, const Aabb& b) {
     int best = 0;
     double widest = -1;
@@ -95,13 +97,13 @@ void refuseTooManyForSsh(size_t references) {
                                                 " references: use another --form");
 }
 
-/// Codes nodes, parents first: each notes what its children need.
+/// Encodes nodes, parents first. Each node records the box that its children inherit, and their order.
 class PairEncoder {
   public:
     explicit PairEncoder(const SharedArray<Node>& nodes)
         : nodes_(nodes), inherited_(nodes.size() / 2), swapped_(nodes.size() / 2) {}
 
-    /// The node at index i, whose parent was coded: it may be the sibling of what stood there.
+    /// Encodes the node for index i, whose parent was encoded before. It is the given node or its sibling.
     SshNode at(size_t i) { return code(nodes_[i ^ swapped_[i / 2]], inherited_[i / 2]); }
 
     SshNode code(const Node& node, Aabb box) {
@@ -123,7 +125,7 @@ class PairEncoder {
     Buffer<uint8_t> swapped_;
 };
 
-/// The node within its box. An inner node leaves the box with its children, in `nodes`.
+/// Returns the decoded node with its box. An inner node's children in `nodes` inherit the box.
 Node decoded(uint32_t word, const Aabb& box, Buffer<Node>& nodes) {
     const SshNode node{0, word};
     if (node.isLeaf()) return {box, node.firstPrimitive(), node.primitiveCount()};

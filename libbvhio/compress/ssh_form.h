@@ -1,10 +1,10 @@
 // The ssh form: the Single Slab Hierarchy of M. Eisemann, C. Woizischke and M. Magnor, "Ray Tracing with the
-// Single-Slab Hierarchy", VMV 2008. A node holds one plane: the one side of its box that, moved inwards,
-// shrinks the box it inherits from its parent most. 8 bytes.
+// Single-Slab Hierarchy", VMV 2008. A node of 8 bytes holds one plane. It inherits its parent's box, and the
+// plane replaces the side of this box whose move inwards shrinks it most.
 //
 // Departures: both children's planes are tested before the push (the paper tests a node's own plane after it
-// is popped), siblings are adjacent, and leaves say how many triangles they have, where the paper pads all to
-// one size.
+// is popped), siblings are adjacent, and leaves store their number of triangles (the paper pads all leaves to
+// one size).
 #pragma once
 
 #include "compress/form_concept.h"
@@ -22,12 +22,12 @@ struct SshNode {
     static constexpr uint32_t kMaxLeafSize = 4;
     static constexpr uint32_t kMaxReferences = 1u << 25;
 
-    /// Which of {min.x, min.y, min.z, max.x, max.y, max.z} the plane is.
+    /// Returns which of {min.x, min.y, min.z, max.x, max.y, max.z} the plane is.
     constexpr uint32_t side() const { return word & 7; }
     constexpr bool isLeaf() const { return splitAxis() == kLeaf; }
-    /// Of an inner node: the axis along which its left child lies below the right one; 3 for a leaf.
+    /// Returns an inner node's axis along which its left child lies below the right one, or 3 for a leaf.
     constexpr uint32_t splitAxis() const { return word >> 3 & 3; }
-    /// Of an inner node: its left child; the right one is next.
+    /// Returns an inner node's left child. The right one is next to it.
     constexpr uint32_t left() const { return word >> 5 << 1; }
     constexpr uint32_t firstPrimitive() const { return word >> 5 & (kMaxReferences - 1); }
     constexpr uint32_t primitiveCount() const { return (word >> 30) + 1; }
@@ -60,12 +60,12 @@ class SshForm {
     EncodeOptions options() const { return {}; }
     size_t nodeBytes() const { return nodes_.size() * sizeof(SshNode); }
 
-    /// Many trees: their nodes below the roots, and the words of the roots, whose boxes are elsewhere.
+    /// Many trees: the nodes below their roots, and the words of the roots. The roots' boxes are not stored.
     struct Trees {
         SharedArray<uint32_t> roots;
         SharedArray<SshNode> nodes;
     };
-    /// As `encode` does. `boxes` are the roots', which keep them.
+    /// Encodes many trees, like `encode`. The roots keep their boxes, which are `boxes`.
     static Trees encodeTrees(const Forest& forest, std::span<const Aabb> boxes, size_t references);
     static Forest decodeTrees(const Trees& trees, std::span<const Aabb> boxes);
 

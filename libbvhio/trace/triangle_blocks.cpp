@@ -1,32 +1,10 @@
 #include "trace/triangle_blocks.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/parallel.h"
 
 namespace bvhio {
-namespace {
-
-constexpr float kErrorPerUnit = 25 * 0x1p-24f;
-constexpr float kRoundUp = 1 + 0x1p-20f;  // covers the rounding of the bounds themselves
-// Above this size products of four coordinates overflow, so such triangles always go to the test in double.
-constexpr float kLargest = 1e18f;
-// Covers underflow: its square is well above the smallest floats.
-constexpr float kSmallestError = 0x1p-70f;
-
-float largestComponent(Vec3 v) {
-    const float x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
-    const float xy = x > y ? x : y;
-    return xy > z ? xy : z;
-}
-
-float errorBound(float size) {
-    return size < kLargest ? size * kErrorPerUnit * kRoundUp + kSmallestError
-                           : std::numeric_limits<float>::infinity();
-}
-
-}  // namespace
 
 TriangleBlocks::TriangleBlocks(const Scene& scene, std::span<const uint32_t> primitives,
                                std::span<const PrimitiveRange> leaves)
@@ -62,10 +40,6 @@ void TriangleBlocks::fill(const Scene& scene, std::span<const uint32_t> primitiv
         set(kErrorRow, error);
         set(kReachRow, 4 * largestComponent(bounds(triangle).extent()) * kRoundUp + error);
     }
-}
-
-float TriangleBlocks::rayError(Vec3 origin) const {
-    return errorBound(largestComponent(origin - center_));
 }
 
 }  // namespace bvhio

@@ -1,8 +1,10 @@
 // Triangles rearranged for tracing: a block for each leaf, in a layout for testing four triangles at once.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
 
 #include "compress/form_concept.h"
@@ -40,7 +42,7 @@ class TriangleBlocks {
         return data_.data() + size_t(kRowCount) * firstPrimitive;
     }
     /// Returns the ray's part of the error bound, for rays from `origin`.
-    float rayError(Vec3 origin) const;
+    BVHIO_INLINE float rayError(Vec3 origin) const { return errorBound(largestComponent(origin - center_)); }
     size_t bytes() const { return data_.size() * sizeof(float); }
 
     /// Returns the triangle in column i of a block of n triangles.
@@ -58,6 +60,23 @@ class TriangleBlocks {
     }
 
   private:
+    static constexpr float kErrorPerUnit = 25 * 0x1p-24f;
+    static constexpr float kRoundUp = 1 + 0x1p-20f;  // covers the rounding of the bounds themselves
+    // Above this size products of four coordinates overflow, so such triangles always go to the test in
+    // double.
+    static constexpr float kLargest = 1e18f;
+    // Covers underflow: its square is well above the smallest floats.
+    static constexpr float kSmallestError = 0x1p-70f;
+
+    static BVHIO_INLINE float largestComponent(Vec3 v) {
+        const float x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+        const float xy = x > y ? x : y;
+        return xy > z ? xy : z;
+    }
+    static BVHIO_INLINE float errorBound(float size) {
+        return size < kLargest ? size * kErrorPerUnit * kRoundUp + kSmallestError
+                               : std::numeric_limits<float>::infinity();
+    }
     void fill(const Scene& scene, std::span<const uint32_t> primitives, const PrimitiveRange& leaf);
 
     Vec3 center_;

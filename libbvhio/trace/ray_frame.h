@@ -119,7 +119,7 @@ HWY_INLINE void placeSiblings(const PlacedBox& box, Four minFractions, Four maxF
 
 /// The boxes that a ray enters, of two.
 struct EnteredOfTwo {
-    float enter[2];    // where
+    Four enter;        // where, in lanes 0 and 1
     uint32_t entered;  // bit 0: the first, bit 1: the second
 };
 
@@ -214,8 +214,7 @@ class RayFrame {
         __m128 exit = _mm_min_ps(_mm_unpacklo_ps(farA, farB), _mm_unpackhi_ps(farA, farB));
         enter = _mm_max_ps(enter, _mm_movehl_ps(enter, enter));
         exit = _mm_min_ps(_mm_min_ps(exit, _mm_movehl_ps(exit, exit)), _mm_set1_ps(tLimit));
-        return {{_mm_cvtss_f32(enter), _mm_cvtss_f32(_mm_shuffle_ps(enter, enter, 1))},
-                uint32_t(_mm_movemask_ps(_mm_cmple_ps(enter, exit))) & 3};
+        return {Four(enter), uint32_t(_mm_movemask_ps(_mm_cmple_ps(enter, exit))) & 3};
 #else
         return bothOf(clipRegular(a, tLimit), clipRegular(b, tLimit));
 #endif
@@ -264,7 +263,7 @@ class RayFrame {
 #endif
     }
     static EnteredOfTwo bothOf(const RayInterval& a, const RayInterval& b) {
-        return {{a.enter, b.enter}, uint32_t(!a.isEmpty()) | uint32_t(!b.isEmpty()) << 1};
+        return {Four{a.enter, b.enter, 0, 0}, uint32_t(!a.isEmpty()) | uint32_t(!b.isEmpty()) << 1};
     }
 
     HWY_INLINE void shift(Four first, Four last, Four margin, float start) {

@@ -21,34 +21,39 @@
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
-/// The visitor of a top level's leaves: `visit(context, leaf, entry)` is called for each leaf that is
-/// entered. It returns whether the query is done.
-struct LeafVisitor {
-    const void* context;
-    bool (*visit)(const void* context, PrimitiveRange leaf, const RootEntry& entry);
-
-    /// Returns a visitor that calls context(leaf, entry).
+/// A call of `context(leaf, entry)` whose type does not depend on the context's.
+class LeafVisitor {
+  public:
     template <class Context>
-    static LeafVisitor of(const Context& context) {
-        return {&context, [](const void* self, PrimitiveRange leaf, const RootEntry& entry)
-                              HWY_ATTR { return (*static_cast<const Context*>(self))(leaf, entry); }};
+    explicit LeafVisitor(const Context& context)
+        : context_(&context),
+          visit_([](const void* self, PrimitiveRange leaf, const RootEntry& entry)
+                     HWY_ATTR { return (*static_cast<const Context*>(self))(leaf, entry); }) {}
+
+    bool operator()(PrimitiveRange leaf, const RootEntry& entry) const {
+        return visit_(context_, leaf, entry);
     }
+
+  private:
+    const void* context_;
+    bool (*visit_)(const void* context, PrimitiveRange leaf, const RootEntry& entry);
 };
 
+/// Walks through a top level. `visit(leaf, entry)` is called for each leaf that is entered, and returns
+/// whether the query is done.
 template <class Tlas, class Query, class Metrics>
 HWY_NOINLINE void traverseTlas(const TlasStepper<Tlas>& tlas,
                                const Entered<typename TlasStepper<Tlas>::Cursor>& root,
                                const typename TlasStepper<Tlas>::Ray& ray, Query& query, Metrics& metrics,
-                               LeafVisitor visitor) {
+                               const LeafVisitor& visit) {
     const auto visitLeaf = [&](const Entered<typename TlasStepper<Tlas>::Cursor>& leaf) HWY_ATTR {
-        return visitor.visit(visitor.context, tlas.primitiveRange(leaf.cursor),
-                             tlas.entry(leaf, ray, query.boxLimit()));
+        return visit(tlas.primitiveRange(leaf.cursor), tlas.entry(leaf, ray, query.boxLimit()));
     };
     traverseFrom(tlas, root, ray, query, metrics, visitLeaf);
 }
 
-/// Walks through BLASes with a ray that is prepared for them. The query is always an InstanceQuery, also for
-/// trees that are not instances, so that both share their loops.
+/// Walks through a BLAS with a ray that is prepared for it. Returns whether the query is done. The query is
+/// always an InstanceQuery, also for trees that are not instances, so that both share their loops.
 template <class Blases, class Source, class Query, class Metrics>
 HWY_NOINLINE bool traverseBlas(const Blases& blases, PrimitiveRange leaf, const RootEntry& entry,
                                const typename BlasStepper<Blases>::Ray& blasRay, const Source& source,
@@ -75,7 +80,7 @@ HWY_INLINE void traverseLevels(const Tlas& tlas, const Blases& blases, const Sou
         const auto visitLeaf = [&](PrimitiveRange leaf, const RootEntry& entry) HWY_ATTR {
             return traverseBlas(blases, leaf, entry, blasRay, source, ray, within, behind);
         };
-        traverseTlas<Tlas>(top, root, topRay, query, metrics, LeafVisitor::of(visitLeaf));
+        traverseTlas<Tlas>(top, root, topRay, query, metrics, LeafVisitor(visitLeaf));
     };
     if constexpr (std::is_same_v<typename Top::Ray, typename BlasStepper<Blases>::Ray>)
         below(topRay);
@@ -133,7 +138,7 @@ HWY_INLINE void traverseInstances(const Tlas& tlas, const TwoLevelForm& form, co
             },
             form.blases());
     };
-    traverseTlas<Tlas>(top, root, topRay, query, metrics, LeafVisitor::of(visitLeaf));
+    traverseTlas<Tlas>(top, root, topRay, query, metrics, LeafVisitor(visitLeaf));
 }
 
 template <>

@@ -39,7 +39,7 @@ class Stepper;
 /// - step: tests the boxes of the children of an inner node that was entered. Writes the nearest entered
 ///   child to `next`, and pushes the others to `top`, the farthest first. Of equally near children, the one
 ///   that is stored first counts as the nearest. Returns false, and pushes nothing, if no child is entered.
-///   `next` is not `from`. A child is entered if its part of the ray, cut off at `tLimit`, is not empty. The
+///   `next` may be `from`. A child is entered if its part of the ray, cut off at `tLimit`, is not empty. The
 ///   contract that makes hits the same for every form: enter a child whenever `clipToBox` accepts any box
 ///   inside the child's stored box, at this tLimit, and let `enter` not exceed the `enter` that `clipToBox`
 ///   finds for that box.

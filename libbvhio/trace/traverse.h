@@ -50,11 +50,8 @@ template <SteppableNodes S, class Metrics>
 HWY_INLINE bool descend(const S& stepper, const typename S::Ray& ray, float tLimit,
                         Entered<typename S::Cursor>& current, Entered<typename S::Cursor>*& top,
                         Metrics& metrics) {
-    while (!stepper.isLeaf(current.cursor)) {
-        Entered<typename S::Cursor> next;
-        if (!stepper.step(current, ray, tLimit, next, top, metrics)) return false;
-        current = next;
-    }
+    while (!stepper.isLeaf(current.cursor))
+        if (!stepper.step(current, ray, tLimit, current, top, metrics)) return false;
     return true;
 }
 
@@ -69,7 +66,11 @@ HWY_INLINE bool traverseFrom(const S& stepper, Entered<typename S::Cursor> curre
     Entry stack[kMaxDepth * S::kMaxPushed + 1];
     Entry* top = stack;
     for (;;) {
-        if (descend(stepper, ray, query.boxLimit(), current, top, metrics) && visitLeaf(current)) return true;
+        if (descend(stepper, ray, query.boxLimit(), current, top, metrics)) {
+            // A copy: what visitors refer to is in memory, and `current` is better kept in registers.
+            const Entry leaf = current;
+            if (visitLeaf(leaf)) return true;
+        }
         do {
             if (top == stack) return false;
             current = *--top;

@@ -6,6 +6,8 @@
 #define BVHIO_TRACE_STEP_AABB_H
 #endif
 
+#include <hwy/cache_control.h>
+
 #include "compress/aabb_form.h"
 #include "trace/stepper.h"
 
@@ -52,6 +54,8 @@ class AabbPairs {
         const uint32_t left = from.cursor.first, right = left + 1;
         metrics.recordFetched(left * sizeof(Node), 2 * sizeof(Node));
         metrics.boxesTested(2, kFullBoxTestCost);
+        prefetchBelow(nodes_[left]);
+        prefetchBelow(nodes_[right]);
         const RayInterval inLeft = clipToBox(ray, nodes_[left].bounds, tLimit);
         const RayInterval inRight = clipToBox(ray, nodes_[right].bounds, tLimit);
         if (inLeft.isEmpty()) {
@@ -80,6 +84,12 @@ class AabbPairs {
     }
 
   protected:
+    /// Requests the pair below a node before it is known whether the ray needs it: incoherent rays wait for
+    /// memory. For a leaf the address has no meaning, but a prefetch of any address is harmless.
+    HWY_INLINE void prefetchBelow(const Node& node) const {
+        const uintptr_t address = reinterpret_cast<uintptr_t>(nodes_) + size_t(node.first) * sizeof(Node);
+        hwy::Prefetch(reinterpret_cast<const char*>(address));
+    }
     HWY_INLINE void enter(Entered<C>& entered, uint32_t index, float at) const {
         entered.cursor.set(nodes_[index], index);
         entered.enter = at;

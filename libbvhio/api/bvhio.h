@@ -158,20 +158,19 @@ BVHIO_API BvhioStatus bvhioCheckMemory(const void* bytes, size_t size, const Bvh
 /* Facts about a container. */
 typedef struct BvhioInfo {
     uint64_t vertexCount;
-    uint64_t triangleCount; /* as stored, each mesh once */
-    uint64_t geometryCount; /* as stored */
-    uint64_t meshCount;     /* 0 in a plain scene */
-    uint64_t instanceCount; /* 0 in a plain scene */
-    uint64_t
-        primitiveCount;   /* what rays can hit: triangles of all instances; in a plain scene triangleCount */
-    uint64_t treeCount;   /* trees that bvhioGetTree gives: 1; in an instanced scene 1 + meshCount */
-    uint64_t nodeBytes;   /* of the nodes in memory, in the form they are stored in */
-    uint64_t contentHash; /* of the content, codecs left aside; 0 unless the container was opened */
-    const char* form;     /* how nodes are stored, such as "aabb" or "quantized" */
-    float traversalCost;  /* SAH costs that the tree was built for: of visiting an inner node, */
-    float intersectionCost; /* and of testing a ray against a triangle */
-    uint32_t chunkCount;    /* chunks of the file; 0 unless the container was opened */
-    uint32_t historyCount;  /* entries of its history */
+    uint64_t triangleCount;  /* as stored, each mesh once */
+    uint64_t geometryCount;  /* as stored */
+    uint64_t meshCount;      /* 0 in a plain scene */
+    uint64_t instanceCount;  /* 0 in a plain scene */
+    uint64_t primitiveCount; /* what rays can hit: the triangles of all instances */
+    uint64_t treeCount;      /* trees that bvhioGetTree gives: 1; in an instanced scene 1 + meshCount */
+    uint64_t nodeBytes;      /* of the nodes in memory, in the form they are stored in */
+    uint64_t contentHash;    /* of the content, codecs left aside; 0 unless the container was opened */
+    const char* form;        /* how nodes are stored, such as "aabb" or "quantized" */
+    float traversalCost;     /* SAH costs that the tree was built for: of visiting an inner node, */
+    float intersectionCost;  /* and of testing a ray against a triangle */
+    uint32_t chunkCount;     /* chunks of the file; 0 unless the container was opened */
+    uint32_t historyCount;   /* entries of its history */
 } BvhioInfo;
 
 /* [reader] Fills `info`. */
@@ -185,8 +184,7 @@ typedef struct BvhioChunk {
     const char* codec;   /* such as "zstd"; "none" for payloads stored as they are */
     uint64_t rawSize;    /* of the payload when decoded */
     uint64_t storedSize; /* of the payload in the file */
-    uint64_t
-        offset; /* of the chunk's header, from the container's first byte; the payload is 64 bytes behind */
+    uint64_t offset;     /* of the chunk's header in the container; the payload is 64 bytes behind */
 } BvhioChunk;
 
 /* [reader] Fills `chunk` with chunk number `index`, below BvhioInfo::chunkCount, in file order. */
@@ -206,11 +204,10 @@ typedef struct BvhioMesh {
 
 /* A placed mesh. */
 typedef struct BvhioInstance {
-    float objectToWorld[12]; /* the upper 3 x 4 of an affine matrix, row by row: from the mesh's space to the
-                                world */
+    float objectToWorld[12]; /* the upper 3 x 4 of an affine matrix, row by row */
     uint32_t mesh;
-    uint32_t firstPrimitive,
-        firstGeometry; /* the numbers that its first triangle and geometry have in hits */
+    uint32_t firstPrimitive; /* the number that its first triangle has in hits */
+    uint32_t firstGeometry;  /* the number that its first geometry has in hits */
 } BvhioInstance;
 
 /* An entry of the container's history: which program changed it, with which options. */
@@ -244,8 +241,7 @@ BVHIO_API BvhioStatus bvhioGetSourceIds(const BvhioContainer* container, const u
 /* A node of a binary tree, 32 bytes. Two siblings lie beside each other, the left one at an even index. */
 typedef struct BvhioNode {
     float min[3], max[3]; /* the box: finite, min <= max */
-    uint32_t first; /* inner node: index of its left child, the right one is first + 1; leaf: of its first
-                       primitive */
+    uint32_t first; /* inner node: its left child, the right one is first + 1; leaf: its first primitive */
     uint32_t count; /* inner node: 0; leaf: its number of primitives */
 } BvhioNode;
 
@@ -280,9 +276,7 @@ typedef struct BvhioPrimitive {
 BVHIO_API BvhioStatus bvhioGetPrimitive(const BvhioContainer* container, uint32_t number,
                                         BvhioPrimitive* primitive);
 
-/* ---- Rays
- * ---------------------------------------------------------------------------------------------------------
- */
+/* ---- Rays ------------------------------------------------------------------ */
 
 /* The points origin + t * direction with tMin <= t <= tMax; 32 bytes, as in a .rays file. The direction need
  * not have length 1: t is in its units. A negative tMin counts as 0. A ray with a NaN, an infinite origin or
@@ -366,8 +360,7 @@ typedef struct BvhioSceneArrays {
     const uint32_t* indices; /* three for each triangle */
     uint64_t triangleCount;  /* 1 to 2^31 - 1 */
 
-    const BvhioPart*
-        parts; /* the geometries, whose triangles follow each other; NULL: one for all triangles */
+    const BvhioPart* parts; /* the geometries, one behind the other; NULL: one for all triangles */
     uint64_t partCount;
     const uint32_t* sourceIds; /* of each triangle within its geometry, for hits; NULL: 0, 1, 2, ... */
 
@@ -416,12 +409,14 @@ BVHIO_API BvhioStatus bvhioBuild(const BvhioScene* scene, const char* const* opt
                                  const BvhioContext* context, BvhioContainer** result);
 
 /* Lowers the SAH cost of a tree by changing its topology. Options of bvh-restructure: method,
- * iterations, treelet-size, gamma, collapse (yes or no), max-leaf-size. The result is in the aabb form. */
+ * iterations, treelet-size, gamma, collapse (yes or no), max-leaf-size. The result is in the aabb form;
+ * of an instanced scene, in the two-level form with levels in the aabb form. */
 BVHIO_API BvhioStatus bvhioRestructure(const BvhioContainer* container, const char* const* options,
                                        const BvhioContext* context, BvhioContainer** result);
 
 /* Orders the nodes in memory. Options of bvh-relayout: layout, probability, smoothing, line-size,
- * record-bytes, threshold, treelet-size, pointer-bits. The result is in the aabb form. */
+ * record-bytes, threshold, treelet-size, pointer-bits. The result is in the aabb form, as
+ * that of bvhioRestructure. */
 BVHIO_API BvhioStatus bvhioRelayout(const BvhioContainer* container, const char* const* options,
                                     const BvhioContext* context, BvhioContainer** result);
 

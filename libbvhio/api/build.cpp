@@ -1,4 +1,4 @@
-// Building trees, improving and reordering them.
+// bvhioBuild: builds trees over scenes.
 #include "api/pass.h"
 #include "api/scene.h"
 #include "build/builders.h"

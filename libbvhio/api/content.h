@@ -1,4 +1,4 @@
-// What the handles of containers and tracers share.
+// The content that the handles of containers and tracers share.
 #pragma once
 
 #include <memory>
@@ -11,16 +11,16 @@
 
 namespace bvhio {
 
-/// A container's content. Immutable once it is in a handle, but for the trees that are decoded on demand.
+/// A container's content. Immutable once it is in a handle, except for trees, which are decoded on demand.
 struct Content {
     explicit Content(BvhxFile content) : file(std::move(content)) {}
 
     BvhxFile file;
-    WriteOptions writing{};             // how a save stores it
+    WriteOptions writing{};             // for bvhioSaveFile and bvhioSaveMemory
     std::vector<ChunkHeader> chunks{};  // of the file that was opened
-    uint64_t contentHash = 0;           // of that file
+    uint64_t contentHash = 0;           // of the file that was opened
 
-    /// The trees as bvhioGetTree numbers them. From any thread.
+    /// Returns the trees as bvhioGetTree numbers them. May be called from any thread.
     const std::vector<Bvh>& trees() const;
 
   private:

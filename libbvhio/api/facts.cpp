@@ -1,4 +1,4 @@
-// What a container has: its counts, chunks, parts, arrays and trees, for readers.
+// The content of a container, for readers: its counts, chunks, parts, arrays and trees.
 #include <cstddef>
 #include <cstring>
 
@@ -17,7 +17,7 @@ static_assert(BVHIO_NOTHING == bvhio::kNoPrimitive);
 namespace bvhio {
 namespace {
 
-/// Calls fill(content, *result) with pointers that are checked.
+/// Checks the pointers, and calls fill(content, *result).
 template <class Result, class Fill>
 BvhioStatus fillFrom(const BvhioContainer* container, Result* result, const char* name, const Fill& fill) {
     return guarded([&] {
@@ -27,7 +27,7 @@ BvhioStatus fillFrom(const BvhioContainer* container, Result* result, const char
     });
 }
 
-/// The same for one element of an array.
+/// Checks the pointers and the index, and fills *result from one element of an array.
 template <class Result, class Elements, class Fill>
 BvhioStatus fillElement(const BvhioContainer* container, uint64_t index, Result* result, const char* name,
                         const Elements& elements, const Fill& fill) {
@@ -38,7 +38,7 @@ BvhioStatus fillElement(const BvhioContainer* container, uint64_t index, Result*
     });
 }
 
-/// Gives an array of T, of which the caller sees the Elements.
+/// Returns an array of T, which the caller sees as an array of Element.
 template <class Element, class T>
 BvhioStatus giveArray(const BvhioContainer* container, const Element** elements, uint64_t* count,
                       SharedArray<T> Scene::*array) {

@@ -1,4 +1,4 @@
-// The names of what passes can be told to use.
+// The names and summaries of methods that passes use.
 #include "api/bvhio.h"
 #include "build/builders.h"
 #include "compress/forms.h"
@@ -9,7 +9,7 @@
 namespace bvhio {
 namespace {
 
-/// Calls use(table) with the table of a kind; returns `otherwise` for kinds that do not exist.
+/// Calls use(table) with the table of a kind. Returns `otherwise` for a kind that does not exist.
 template <class Result, class Use>
 Result useTable(BvhioMethod kind, Result otherwise, const Use& use) {
     switch (kind) {

@@ -1,4 +1,4 @@
-// Opening and checking containers, for readers.
+// Opens and checks containers, for readers.
 #include "api/content.h"
 #include "api/status.h"
 #include "core/parallel.h"
@@ -12,7 +12,7 @@ size_t threadsOf(const BvhioContext* context) {
     return context == nullptr ? 0 : context->threads;
 }
 
-/// Makes a handle of what `open()` gives as a source of bytes.
+/// Makes a handle from the source of bytes that `open()` returns.
 template <class Open>
 BvhioStatus openFrom(uint32_t flags, const BvhioContext* context, BvhioContainer** container,
                      const Open& open) {

@@ -8,8 +8,8 @@
 namespace bvhio {
 namespace {
 
-/// Hands progress to a callback in steps that it can follow, one call at a time, and ends the pass when the
-/// callback wants it.
+/// Reports progress to a callback, about kCalls times per pass and one call at a time, and ends the pass if
+/// the callback asks for it.
 class CallbackListener : public ProgressListener {
   public:
     CallbackListener(BvhioProgress callback, void* user) : callback_(callback), user_(user) {}
@@ -32,7 +32,7 @@ class CallbackListener : public ProgressListener {
     }
 
   private:
-    static constexpr uint64_t kCalls = 256;  // about so many for each pass
+    static constexpr uint64_t kCalls = 256;
 
     BvhioProgress callback_;
     void* user_;

@@ -12,10 +12,10 @@
 
 namespace bvhio {
 
-/// Makes the content of a pass's result. It asks for its options, calls options.refuseUnknown() and works.
+/// Makes the content of a pass's result. It reads its options, calls options.refuseUnknown() and then works.
 using PassBody = std::function<std::shared_ptr<Content>(OptionList& options, Progress& progress)>;
 
-/// Runs a pass that is called `name` in histories, for the C function that is given the rest.
+/// Runs a pass, which histories call `name`. The other parameters are those of its C function.
 BvhioStatus runPass(std::string_view name, const void* input, const char* const* options,
                     const BvhioContext* context, BvhioContainer** result, const PassBody& body);
 

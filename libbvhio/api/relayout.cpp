@@ -1,4 +1,4 @@
-// Ordering nodes in memory.
+// bvhioRelayout: orders nodes in memory.
 #include "api/pass.h"
 #include "file/change_trees.h"
 #include "relayout/clusters.h"
@@ -8,11 +8,11 @@ namespace bvhio {
 namespace {
 
 constexpr std::string_view kProbabilityNames[] = {"area", "visits"};
-// How many random rays count beside each recorded one: the least at which a view from the other side loses at
-// most 2% against areas.
+// The number of random rays that count beside each recorded ray: the least at which a view from the other
+// side loses at most 2% against areas.
 constexpr float kStandardSmoothing = 2;
 
-/// Asks for an option that only some layouts use; the others leave it out of their record.
+/// Reads an option that only some layouts use. The record of other layouts leaves it out.
 template <class Number>
 void askFor(OptionList& list, const Layout& layout, uint32_t uses, const char* name, Number& value,
             Number standard, Number min, Number max) {

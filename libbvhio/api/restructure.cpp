@@ -1,4 +1,4 @@
-// Changing which nodes a tree has.
+// bvhioRestructure: changes the topology of trees.
 #include "api/pass.h"
 #include "compress/exact_boxes.h"
 #include "file/change_trees.h"
@@ -31,10 +31,9 @@ extern "C" BvhioStatus bvhioRestructure(const BvhioContainer* container, const c
             change.progress = &progress;
             const bool isExact = std::holds_alternative<AabbForm>(file.bvh);
             changeTrees(file, [&](const Scene& scene, const Bvh& given, bool isTop) {
-                // Costs are judged by the boxes that the tree is about, not by those that a compact form made
-                // of them.
+                // Costs are those of exact boxes, not of the larger boxes that a compact form made of them.
                 RestructureOptions own = change;
-                if (isTop) own.collapse = false;  // an instance has a leaf of its own
+                if (isTop) own.collapse = false;  // each instance has its own leaf
                 return method.function(scene, isExact ? given : withExactBoxes(scene, given), own).bvh;
             });
             dropChunksThatDoNotSurvive(file, Change::topologyChanged);

@@ -1,4 +1,4 @@
-// Saving containers, and what they cost.
+// Saves containers, and computes their costs.
 #include <cstdlib>
 #include <cstring>
 #include <ostream>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t kAlignment = 64;  // so that arrays can be used in place
 
-/// Memory that grows and is given away.
+/// A stream buffer over memory that grows. release() returns the memory to the caller.
 class GrowingMemory : public std::streambuf {
   public:
     ~GrowingMemory() override { std::free(bytes_); }
@@ -53,7 +53,7 @@ class GrowingMemory : public std::streambuf {
 };
 
 void write(std::ostream& out, const BvhioContainer* container, const BvhioContext* context) {
-    out.exceptions(std::ios::badbit);  // so that what the buffer throws comes through
+    out.exceptions(std::ios::badbit);  // so that exceptions of the buffer reach the caller
     const Content& content = contentOf(container);
     const ThreadLimit limit(context == nullptr ? 0 : context->threads);
     writeBvhx(out, content.file, content.writing);

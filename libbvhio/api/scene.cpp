@@ -1,4 +1,4 @@
-// Scenes from the caller's arrays.
+// Makes scenes from the caller's arrays.
 #include "api/scene.h"
 
 #include <cstring>
@@ -11,12 +11,12 @@
 namespace bvhio {
 namespace {
 
-/// An array that may be absent: NULL with a count of 0.
+/// Returns an array that may be absent: NULL with a count of 0.
 template <class T>
 std::span<const T> optionalArray(const T* values, uint64_t count, const char* name) {
     if (values == nullptr && count > 0)
         throw Error(ErrorKind::usage,
-                    std::string(name) + " is NULL, but there should be " + std::to_string(count));
+                    std::string(name) + " is NULL, but its count is " + std::to_string(count));
     return {values, values == nullptr ? 0 : size_t(count)};
 }
 
@@ -37,7 +37,7 @@ SceneArrays arraysFrom(const BvhioSceneArrays& given, std::vector<SceneArrays::P
     for (const BvhioPart& part : optionalArray(given.parts, given.partCount, "parts"))
         parts.push_back({part.name == nullptr ? "" : part.name, part.triangleCount});
     if (given.parts != nullptr && given.partCount == 0)
-        throw Error(ErrorKind::usage, "partCount is 0: leave parts NULL for a single one");
+        throw Error(ErrorKind::usage, "partCount is 0, but parts is not NULL: pass NULL for a single part");
     arrays.geometries = parts;
     arrays.meshes = optionalArray(given.meshes, given.meshCount, "meshes");
     for (const BvhioPlacement& from : optionalArray(given.placements, given.placementCount, "placements")) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kMaxMessage = 1000;
 
-/// The last failure of a thread. Fixed memory: it has to hold that there is no memory, too.
+/// The last failure of a thread. Its memory is fixed, since the failure may be that there is no memory left.
 struct Failure {
     char message[kMaxMessage + 1] = "";
     uint32_t finding = 0;
@@ -21,7 +21,7 @@ thread_local Failure lastFailure;
 
 BvhioStatus fail(BvhioStatus status, const char* message, uint32_t finding = 0) noexcept {
     size_t length = std::min(std::strlen(message), kMaxMessage);
-    // A cut leaves no half character.
+    // Do not cut within a UTF-8 character.
     while (length > 0 && (message[length] & 0xC0) == 0x80) --length;
     std::memcpy(lastFailure.message, message, length);
     lastFailure.message[length] = '\0';
@@ -45,7 +45,7 @@ BvhioStatus recordException() noexcept {
     } catch (const std::exception& error) {
         return fail(BVHIO_RESOURCES, error.what());  // such as a thread that the system does not grant
     } catch (...) {
-        return fail(BVHIO_RESOURCES, "an exception that is not the library's");
+        return fail(BVHIO_RESOURCES, "an exception of an unknown type");
     }
 }
 

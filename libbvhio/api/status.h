@@ -1,4 +1,4 @@
-// Between the C API and the library: exceptions become a status and a text of the thread.
+// Turns the library's exceptions into a status and a message for the thread.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace bvhio {
 
-/// Keeps what went wrong, for bvhioLastError of this thread, and returns its status. For within a catch
-/// block.
+/// Records the current exception for bvhioLastError on this thread, and returns its status. Call it in a
+/// catch block.
 BvhioStatus recordException() noexcept;
 
-/// Runs the body of a C function; whatever it throws becomes its status.
+/// Runs the body of a C function, and returns its exception as a status.
 template <class Body>
 BvhioStatus guarded(const Body& body) noexcept {
     try {
@@ -22,9 +22,9 @@ BvhioStatus guarded(const Body& body) noexcept {
     }
 }
 
-/// Throws Error{usage} when a pointer is NULL; `name` is the parameter's.
+/// Throws Error{usage} if a pointer is NULL; `name` is the parameter's.
 void requirePointer(const void* pointer, const char* name);
-/// Throws Error{usage} when there is no element `index` among `count`; `what` names one ("chunk").
+/// Throws Error{usage} unless `index` is below `count`; `what` is the word for an element, such as "chunk".
 void requireIndex(uint64_t index, uint64_t count, const char* what);
 
 }  // namespace bvhio

@@ -1,4 +1,4 @@
-// Tracing rays, for readers.
+// Traces rays, for readers.
 #include <array>
 #include <cstddef>
 
@@ -22,14 +22,14 @@ static_assert(sizeof(BvhioHit) == sizeof(bvhio::HitRecord) &&
               offsetof(BvhioHit, instance) == offsetof(bvhio::HitRecord, instance));
 
 struct BvhioTracer {
-    std::shared_ptr<const bvhio::Content> content;  // what the tracer refers to
+    std::shared_ptr<const bvhio::Content> content;  // the tracer uses its arrays
     bvhio::Tracer tracer;
 };
 
 namespace bvhio {
 namespace {
 
-// As many as the tracer gives one task, so that a batch of them runs on the thread that asks for it.
+// The number of rays per task of the library's tracer, so that it traces a batch on the calling thread.
 constexpr size_t kBatch = 1024;
 
 std::span<const Ray> raysIn(const BvhioRay* rays, size_t count) {
@@ -41,7 +41,7 @@ BvhioHit hitIn(const Scene& scene, const Hit& hit) {
     return {record.t, record.u, record.v, record.primitive, record.geometry, record.instance};
 }
 
-/// At most kBatch rays.
+/// Traces at most kBatch rays.
 void traceBatch(const BvhioTracer& from, std::span<const Ray> rays, BvhioHit* hits, uint32_t* primitives) {
     std::array<Hit, kBatch> found;
     from.tracer.closestHits(rays, std::span(found).first(rays.size()));
@@ -51,7 +51,7 @@ void traceBatch(const BvhioTracer& from, std::span<const Ray> rays, BvhioHit* hi
     }
 }
 
-/// Calls batch(begin, end) over all rays, on so many threads.
+/// Calls batch(begin, end) over all rays, on at most `threads` threads.
 template <class Batch>
 void forBatches(size_t count, uint32_t threads, const Batch& batch) {
     if (count <= kBatch || threads == 1) {

@@ -157,7 +157,7 @@ BvhxFile withVisits(const BvhxFile& file, std::span<const Ray> rays, const Comma
         dropChunksThatDoNotSurvive(recorded, Change::reordered);
     }
     recorded.visits = countVisits(file.scene, std::get<AabbForm>(recorded.bvh).bvh(), rays,
-                                  anyHit ? Query::any : Query::closest);
+                                  anyHit ? QueryKind::any : QueryKind::closest);
     // What else was asked for leaves no trace in the file.
     Report all = line.options(), options = Report::object();
     for (const char* name : {"rays", "count", "resolution", "seed", "camera", "any-hit"})
@@ -211,7 +211,7 @@ ExitCode traceRays(CommandLine& line) {
     if (!caches.empty()) listeners.push_back(&cacheModel.emplace(caches, tracer.arraySizes()));
     if (fetchesOutput) listeners.push_back(&fetchTable.emplace(fetchesOutput.stream(), order));
     const TraceMeasurement measurement =
-        tracer.measure(rays, options.anyHit ? Query::any : Query::closest, perRay, listeners);
+        tracer.measure(rays, options.anyHit ? QueryKind::any : QueryKind::closest, perRay, listeners);
 
     Report report = {{"rays", rays.size()}, {"hits", measurement.counts.hits}};
     report["hit_hash"] = hashText(hitHash(records));

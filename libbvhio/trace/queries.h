@@ -6,9 +6,9 @@
 namespace bvhio {
 
 /// Finds the closest hit; among equal t, the one with the lowest primitive index.
-class ClosestHit {
+class ClosestHitQuery {
   public:
-    explicit ClosestHit(const PreparedRay& ray) : boxLimit_(widen(ray.tMax)) { best_.t = ray.tMax; }
+    explicit ClosestHitQuery(const PreparedRay& ray) : boxLimit_(widen(ray.tMax)) { best_.t = ray.tMax; }
 
     /// Returns the largest t at which hits matter.
     BVHIO_INLINE float tLimit() const { return best_.t; }
@@ -51,9 +51,9 @@ class InstanceQuery {
 };
 
 /// Finds out whether there is any hit.
-class AnyHit {
+class AnyHitQuery {
   public:
-    explicit AnyHit(const PreparedRay& ray) : tLimit_(ray.tMax), boxLimit_(widen(ray.tMax)) {}
+    explicit AnyHitQuery(const PreparedRay& ray) : tLimit_(ray.tMax), boxLimit_(widen(ray.tMax)) {}
 
     BVHIO_INLINE float tLimit() const { return tLimit_; }
     BVHIO_INLINE float boxLimit() const { return boxLimit_; }

@@ -96,7 +96,7 @@ void Tracer::anyHits(std::span<const Ray> rays, std::span<uint8_t> occluded) con
     });
 }
 
-TraceMeasurement Tracer::measure(std::span<const Ray> rays, Query query, std::span<RayCounts> perRay,
+TraceMeasurement Tracer::measure(std::span<const Ray> rays, QueryKind query, std::span<RayCounts> perRay,
                                  std::span<FetchListener* const> listeners) const {
     if (stored_) return measureForm(*stored_, scene_, rays, query, perRay, listeners);
     return std::visit(
@@ -113,10 +113,10 @@ FetchedArraySizes Tracer::arraySizes() const {
 }
 
 Hit bruteForceClosestHit(const Scene& scene, const Ray& ray) {
-    return bruteForce<ClosestHit>(scene, ray);
+    return bruteForce<ClosestHitQuery>(scene, ray);
 }
 bool bruteForceAnyHit(const Scene& scene, const Ray& ray) {
-    return bruteForce<AnyHit>(scene, ray);
+    return bruteForce<AnyHitQuery>(scene, ray);
 }
 
 }  // namespace bvhio

@@ -41,7 +41,7 @@ class Tracer {
     /// Runs the queries again, more slowly, and counts their costs; times are measured without this. `perRay`
     /// is empty, or has an element for each ray. All fetches are reported to listeners, ray after ray, on one
     /// thread.
-    TraceMeasurement measure(std::span<const Ray> rays, Query query, std::span<RayCounts> perRay = {},
+    TraceMeasurement measure(std::span<const Ray> rays, QueryKind query, std::span<RayCounts> perRay = {},
                              std::span<FetchListener* const> listeners = {}) const;
 
     /// Returns the sizes of the arrays whose fetches are reported to listeners.

@@ -12,7 +12,7 @@
 namespace bvhio {
 
 /// The kinds of queries.
-enum class Query { closest, any };
+enum class QueryKind { closest, any };
 
 /// The counts of a run.
 struct TraceMeasurement {
@@ -40,7 +40,7 @@ void anyHitsIndexed(const Form& form, const Scene& scene, std::span<const Ray> r
 
 /// Does the work of Tracer::measure, on all threads.
 template <class Form>
-TraceMeasurement measureForm(const Form& form, const Scene& scene, std::span<const Ray> rays, Query query,
+TraceMeasurement measureForm(const Form& form, const Scene& scene, std::span<const Ray> rays, QueryKind query,
                              std::span<RayCounts> perRay, std::span<FetchListener* const> listeners);
 
 }  // namespace bvhio

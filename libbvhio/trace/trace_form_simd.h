@@ -27,12 +27,12 @@ HWY_INLINE void traceAll(const BVHIO_TRACED_FORM& form, const TriangleBlocks& bl
 
 void closestHits(const BVHIO_TRACED_FORM& form, const TriangleBlocks& blocks, std::span<const Ray> rays,
                  std::span<Hit> hits) {
-    traceAll<ClosestHit>(form, blocks, rays, hits);
+    traceAll<ClosestHitQuery>(form, blocks, rays, hits);
 }
 
 void anyHits(const BVHIO_TRACED_FORM& form, const TriangleBlocks& blocks, std::span<const Ray> rays,
              std::span<uint8_t> occluded) {
-    traceAll<AnyHit>(form, blocks, rays, occluded);
+    traceAll<AnyHitQuery>(form, blocks, rays, occluded);
 }
 
 }  // namespace
@@ -62,22 +62,22 @@ void anyHitsInBlocks(const BVHIO_TRACED_FORM& form, const TriangleBlocks& blocks
 template <>
 void closestHitsIndexed(const BVHIO_TRACED_FORM& form, const Scene& scene, std::span<const Ray> rays,
                         std::span<Hit> hits) {
-    HWY_NAMESPACE::traceAllIndexed<ClosestHit>(form, scene, rays, hits);
+    HWY_NAMESPACE::traceAllIndexed<ClosestHitQuery>(form, scene, rays, hits);
 }
 
 template <>
 void anyHitsIndexed(const BVHIO_TRACED_FORM& form, const Scene& scene, std::span<const Ray> rays,
                     std::span<uint8_t> occluded) {
-    HWY_NAMESPACE::traceAllIndexed<AnyHit>(form, scene, rays, occluded);
+    HWY_NAMESPACE::traceAllIndexed<AnyHitQuery>(form, scene, rays, occluded);
 }
 
 template <>
 TraceMeasurement measureForm(const BVHIO_TRACED_FORM& form, const Scene& scene, std::span<const Ray> rays,
-                             Query query, std::span<RayCounts> perRay,
+                             QueryKind query, std::span<RayCounts> perRay,
                              std::span<FetchListener* const> listeners) {
-    return query == Query::closest
-               ? HWY_NAMESPACE::measureAll<ClosestHit>(form, scene, rays, perRay, listeners)
-               : HWY_NAMESPACE::measureAll<AnyHit>(form, scene, rays, perRay, listeners);
+    return query == QueryKind::closest
+               ? HWY_NAMESPACE::measureAll<ClosestHitQuery>(form, scene, rays, perRay, listeners)
+               : HWY_NAMESPACE::measureAll<AnyHitQuery>(form, scene, rays, perRay, listeners);
 }
 
 }  // namespace bvhio

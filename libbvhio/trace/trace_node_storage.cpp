@@ -27,18 +27,18 @@ void traceAll(const Nodes& nodes, const TriangleBlocks& blocks, std::span<const 
 template <>
 void closestHitsInBlocks(const StoredNodes& stored, const TriangleBlocks& blocks, std::span<const Ray> rays,
                          std::span<Hit> hits) {
-    std::visit([&](const auto& nodes) { traceAll<ClosestHit>(nodes, blocks, rays, hits); }, stored);
+    std::visit([&](const auto& nodes) { traceAll<ClosestHitQuery>(nodes, blocks, rays, hits); }, stored);
 }
 
 template <>
 void anyHitsInBlocks(const StoredNodes& stored, const TriangleBlocks& blocks, std::span<const Ray> rays,
                      std::span<uint8_t> occluded) {
-    std::visit([&](const auto& nodes) { traceAll<AnyHit>(nodes, blocks, rays, occluded); }, stored);
+    std::visit([&](const auto& nodes) { traceAll<AnyHitQuery>(nodes, blocks, rays, occluded); }, stored);
 }
 
 template <>
 TraceMeasurement measureForm(const StoredNodes& stored, const Scene& scene, std::span<const Ray> rays,
-                             Query query, std::span<RayCounts> perRay,
+                             QueryKind query, std::span<RayCounts> perRay,
                              std::span<FetchListener* const> listeners) {
     // Nodes in pairs are the aabb form's, for which this is compiled already.
     if (const auto* pairs = std::get_if<NodesInPairs>(&stored))
@@ -48,9 +48,9 @@ TraceMeasurement measureForm(const StoredNodes& stored, const Scene& scene, std:
             if constexpr (std::is_same_v<std::decay_t<decltype(nodes)>, NodesInPairs>)
                 return {};
             else
-                return query == Query::closest
-                           ? HWY_NAMESPACE::measureAll<ClosestHit>(nodes, scene, rays, perRay, listeners)
-                           : HWY_NAMESPACE::measureAll<AnyHit>(nodes, scene, rays, perRay, listeners);
+                return query == QueryKind::closest
+                           ? HWY_NAMESPACE::measureAll<ClosestHitQuery>(nodes, scene, rays, perRay, listeners)
+                           : HWY_NAMESPACE::measureAll<AnyHitQuery>(nodes, scene, rays, perRay, listeners);
         },
         stored);
 }

@@ -90,8 +90,8 @@ class Tuner {
         row.nodeBytes = std::visit([](const auto& f) { return f.nodeBytes(); }, made->bvh);
         row.bytesPerPrimitive = double(row.nodeBytes) / double(scene_.triangles.size());
 
-        TraversalCounts counts = made->tracer.measure(primary_, Query::closest).counts;
-        counts.add(made->tracer.measure(diffuse_, Query::closest).counts);
+        TraversalCounts counts = made->tracer.measure(primary_, QueryKind::closest).counts;
+        counts.add(made->tracer.measure(diffuse_, QueryKind::closest).counts);
         row.nc = counts.nc();
         row.blb = counts.blb();
 

@@ -34,17 +34,17 @@ void visit(const AabbForm& form, const Scene& scene, std::span<const Ray> rays, 
 }  // namespace
 
 std::vector<uint32_t> countVisits(const Scene& scene, const Bvh& bvh, std::span<const Ray> rays,
-                                  Query query) {
+                                  QueryKind query) {
     const AabbForm form(bvh);
     std::vector<uint32_t> sums(bvh.nodes.size() / 2, 0);
     std::mutex mutex;
     parallelChunks(rays.size(), kRaysPerCount, [&](size_t begin, size_t end) {
         VisitMetrics metrics(sums.size());
         const auto part = rays.subspan(begin, end - begin);
-        if (query == Query::closest)
-            visit<ClosestHit>(form, scene, part, metrics);
+        if (query == QueryKind::closest)
+            visit<ClosestHitQuery>(form, scene, part, metrics);
         else
-            visit<AnyHit>(form, scene, part, metrics);
+            visit<AnyHitQuery>(form, scene, part, metrics);
         const std::lock_guard lock(mutex);
         for (size_t i = 0; i < sums.size(); ++i) sums[i] += metrics.counts[i];
     });

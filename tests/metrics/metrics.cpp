@@ -31,7 +31,7 @@ void printRow(const test::TestScene& row, const Scene& scene, const Builder& bui
     RaySetOptions options;
     options.count = 4096;
     const RaySet raySet = makeRaySet("random", scene, options, closestHits);
-    const TraversalCounts counts = tracer.measure(raySet.rays, Query::closest).counts;
+    const TraversalCounts counts = tracer.measure(raySet.rays, QueryKind::closest).counts;
 
     // Six digits: sums in double are of a fixed order, so even the last bits repeat, but nobody wants to
     // review them.

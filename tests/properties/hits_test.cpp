@@ -155,7 +155,7 @@ TEST(Hits, andCountsDoNotDependOnThreads) {
     for (const size_t threads : {1, 2}) {
         const ThreadLimit limit(threads);
         tracer.closestHits(rays, hits[threads - 1]);
-        measured[threads - 1] = tracer.measure(rays, Query::closest);
+        measured[threads - 1] = tracer.measure(rays, QueryKind::closest);
     }
     EXPECT_EQ(std::memcmp(hits[0].data(), hits[1].data(), rays.size() * sizeof(Hit)), 0);
     EXPECT_EQ(measured[0].counts, measured[1].counts);

@@ -32,7 +32,7 @@ TEST_P(NodeStorageInScene, findsTheHitsOfTheForm) {
         std::vector<uint8_t> expectedAny(rays.size()), any(rays.size());
         plain.closestHits(rays, expected);
         plain.anyHits(rays, expectedAny);
-        const TraversalCounts counts = plain.measure(rays, Query::closest).counts;
+        const TraversalCounts counts = plain.measure(rays, QueryKind::closest).counts;
         for (const NodeStorage& storage : nodeStorages()) {
             SCOPED_TRACE(testing::Message() << storage.name << " leaves of " << maxLeafSize);
             const Tracer tracer(scene, bvh, storage);
@@ -40,12 +40,12 @@ TEST_P(NodeStorageInScene, findsTheHitsOfTheForm) {
             tracer.anyHits(rays, any);
             EXPECT_EQ(std::memcmp(hits.data(), expected.data(), rays.size() * sizeof(Hit)), 0);
             EXPECT_EQ(any, expectedAny);
-            const TraversalCounts stored = tracer.measure(rays, Query::closest).counts;
+            const TraversalCounts stored = tracer.measure(rays, QueryKind::closest).counts;
             EXPECT_EQ(stored.boxTests, counts.boxTests);
             EXPECT_EQ(stored.leaves, counts.leaves);
             EXPECT_EQ(stored.triangleTests, counts.triangleTests);
             EXPECT_EQ(stored.hits, counts.hits);
-            const TraversalCounts ofAny = tracer.measure(rays, Query::any).counts;
+            const TraversalCounts ofAny = tracer.measure(rays, QueryKind::any).counts;
             EXPECT_EQ(ofAny.hits, counts.hits);
         }
     }
@@ -74,7 +74,7 @@ TEST(NodeStorage, tellsWhereItsArraysLie) {
         NodeFetches fetches;
         FetchListener* const listeners[] = {&fetches};
         const Tracer tracer(scene, bvh, choose(nodeStorages(), "node storage", name));
-        tracer.measure({&ray, 1}, Query::closest, {}, listeners);
+        tracer.measure({&ray, 1}, QueryKind::closest, {}, listeners);
         for (const auto& [offset, bytes] : fetches.heard) EXPECT_LE(offset + bytes, tracer.arraySizes()[0]);
         fetches.heard.resize(std::min(fetches.heard.size(), count));
         return fetches.heard;
@@ -114,7 +114,7 @@ uint64_t misses(const Scene& scene, const Bvh& tree, std::span<const Ray> rays, 
     const Tracer tracer(scene, bvh, storage);
     CacheModel model(parseCaches(cache), tracer.arraySizes());
     FetchListener* const listeners[] = {&model};
-    tracer.measure(rays, Query::closest, {}, listeners);
+    tracer.measure(rays, QueryKind::closest, {}, listeners);
     return model.report(rays.size())["misses"].get<uint64_t>();
 }
 

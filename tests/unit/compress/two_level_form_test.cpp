@@ -93,8 +93,8 @@ TEST(TwoLevelForm, countsWhatOneTreeCounts) {
     const std::vector<Ray> rays = test::awkwardRays(scene, 1, 10);
     const EncodedBvh one = AabbForm(bvh);
     const EncodedBvh two = TwoLevelForm::encode(scene, bvh, optionsFor(TlasForm::aabb, BlasForm::aabb, 16));
-    const TraversalCounts a = Tracer(scene, one).measure(rays, Query::closest).counts;
-    const TraversalCounts b = Tracer(scene, two).measure(rays, Query::closest).counts;
+    const TraversalCounts a = Tracer(scene, one).measure(rays, QueryKind::closest).counts;
+    const TraversalCounts b = Tracer(scene, two).measure(rays, QueryKind::closest).counts;
     EXPECT_EQ(a.boxTests, b.boxTests);
     EXPECT_EQ(a.leaves, b.leaves);
     EXPECT_EQ(a.triangleTests, b.triangleTests);
@@ -114,8 +114,8 @@ TEST(QuantizedBlases, goOnWhereTheTopEnds) {
         const EncodedBvh one = QuantizedForm::encode(scene, bvh, options);
         const EncodedBvh two = TwoLevelForm::encode(scene, bvh, options);
         EXPECT_EQ(boundsHash(decode(two)), boundsHash(decode(one)));
-        const TraversalCounts a = Tracer(scene, one).measure(rays, Query::closest).counts;
-        const TraversalCounts b = Tracer(scene, two).measure(rays, Query::closest).counts;
+        const TraversalCounts a = Tracer(scene, one).measure(rays, QueryKind::closest).counts;
+        const TraversalCounts b = Tracer(scene, two).measure(rays, QueryKind::closest).counts;
         EXPECT_EQ(a.boxTests, b.boxTests);
         EXPECT_EQ(a.triangleTests, b.triangleTests);
         EXPECT_EQ(a.stackOperations, b.stackOperations);

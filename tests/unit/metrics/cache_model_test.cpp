@@ -163,7 +163,7 @@ TEST(Fetches, areToldRayByRayWithTheirPlaces) {
     const uint32_t order[] = {7, 4};
     FetchTable table(text, order);
     FetchListener* const listeners[] = {&recorder, &table};
-    tracer.measure(rays, Query::closest, {}, listeners);
+    tracer.measure(rays, QueryKind::closest, {}, listeners);
     EXPECT_EQ(recorder.heard, (std::vector<std::array<uint64_t, 4>>{{0, 0, 0, 32},
                                                                     {0, 0, 64, 64},
                                                                     {1, 0, 0, 32},
@@ -194,7 +194,7 @@ TEST(Fetches, tellWhereLeavesOfShortRecordsEnd) {
     Recorder recorder;
     FetchListener* const listeners[] = {&recorder};
     const Tracer tracer(scene, bvh);
-    const TraceMeasurement measured = tracer.measure(rays, Query::closest, {}, listeners);
+    const TraceMeasurement measured = tracer.measure(rays, QueryKind::closest, {}, listeners);
     ASSERT_EQ(recorder.heard.size(), 2u + 2 * 5);
     EXPECT_EQ(recorder.heard[0], (std::array<uint64_t, 4>{0, 0, 0, 8}));
     EXPECT_EQ(recorder.heard[1], (std::array<uint64_t, 4>{0, 0, 8, 8}));
@@ -241,11 +241,11 @@ TEST(CacheModel, countsTheSameForAnyNumberOfThreads) {
             const ThreadLimit limit(threads);
             CacheModel model(parseCaches("2K:64:8"), tracer.arraySizes());
             FetchListener* const listeners[] = {&model};
-            measured[threads - 1] = tracer.measure(rays, Query::closest, {}, listeners);
+            measured[threads - 1] = tracer.measure(rays, QueryKind::closest, {}, listeners);
             reports[threads - 1] = model.report(rays.size());
         }
         EXPECT_EQ(reports[0], reports[1]) << form.name;
-        unheard = tracer.measure(rays, Query::closest);
+        unheard = tracer.measure(rays, QueryKind::closest);
         EXPECT_EQ(measured[0].counts, unheard.counts) << form.name;
         EXPECT_EQ(measured[0].locality, unheard.locality) << form.name;
         // A fetch of a record touches at least one line. A triangle takes five fetches.

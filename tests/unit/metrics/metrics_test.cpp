@@ -38,7 +38,7 @@ TEST(Metrics, matchHandWorkedCounts) {
         {{-3, 0.25f, 9}, 0, {0, 0, -1}, kInf},     // root
         {{0, 0.25f, 9}, 0, {0, 0, 0}, kInf},       // nothing: misses by definition
     };
-    for (const Query query : {Query::closest, Query::any}) {
+    for (const QueryKind query : {QueryKind::closest, QueryKind::any}) {
         std::vector<RayCounts> perRay(5);
         const TraversalCounts counts = Tracer(two.scene, two.bvh).measure(rays, query, perRay).counts;
         EXPECT_EQ(counts.rays, 5u);
@@ -62,7 +62,7 @@ TEST(Metrics, matchHandWorkedCounts) {
 TEST(Metrics, countPushesPopsAndWhatTheyMove) {
     const TwoLeaves two;
     const Ray along{{-1, 0.25f, 0.5f}, 0, {1, 0, -0.08f}, kInf};  // enters both leaves
-    const TraversalCounts counts = Tracer(two.scene, two.bvh).measure({&along, 1}, Query::closest).counts;
+    const TraversalCounts counts = Tracer(two.scene, two.bvh).measure({&along, 1}, QueryKind::closest).counts;
     EXPECT_EQ(counts.leaves, 2u);
     EXPECT_EQ(counts.stackOperations, 2u);
     EXPECT_EQ(counts.stackBytes, 2 * sizeof(HWY_NAMESPACE::Entered<HWY_NAMESPACE::AabbCursor>));

@@ -69,8 +69,8 @@ TEST(Instances, surfacePointsLieOnTheViewersSide) {
 // The box of an instance is part of what a hit is: traversal may find triangles that lie before it.
 TEST(Instances, hitsBeforeTheInstancesBoxDoNotCount) {
     const PreparedRay ray(Ray{{0, 0, 0}, 0, {0, 0, 1}});
-    ClosestHit query(ray);
-    InstanceQuery<ClosestHit> within(query, 2, 10);
+    ClosestHitQuery query(ray);
+    InstanceQuery<ClosestHitQuery> within(query, 2, 10);
     within.offer({1.5f, 0, 0, 3});
     EXPECT_TRUE(query.result().isMiss());
     within.offer({2, 0, 0, 3});

@@ -31,7 +31,7 @@ TEST(Visits, countTheRaysThatFetchAPair) {
                         {{3, 0.25f, 9}, 0, {0, 0, -1}, kForever},
                         {{-3, 0.25f, 9}, 0, {0, 0, -1}, kForever},
                         {{0, 0.25f, 9}, 0, {0, 0, 0}, kForever}};
-    for (const Query query : {Query::closest, Query::any})
+    for (const QueryKind query : {QueryKind::closest, QueryKind::any})
         EXPECT_EQ(countVisits(scene, bvh, rays, query), (std::vector<uint32_t>{4, 3, 2}));
 }
 
@@ -45,17 +45,17 @@ TEST(Visits, areWhatMeasuringCountsAndNeverAboveTheParents) {
         return Vec3{x, y, random.uniform(-1, 1)};
     };
     for (Ray& ray : rays) ray = {point(), 0, point(), kForever};
-    const std::vector<uint32_t> visits = countVisits(scene, bvh, rays, Query::closest);
+    const std::vector<uint32_t> visits = countVisits(scene, bvh, rays, QueryKind::closest);
     uint64_t sum = 0;
     for (const uint32_t count : visits) sum += count;
     const EncodedBvh form = AabbForm(bvh);
-    EXPECT_EQ(sum, Tracer(scene, form).measure(rays, Query::closest).counts.records);
+    EXPECT_EQ(sum, Tracer(scene, form).measure(rays, QueryKind::closest).counts.records);
     for (size_t i = 0; i < bvh.nodes.size(); ++i) {
         if (i == 1 || bvh.nodes[i].isLeaf()) continue;
         EXPECT_LE(visits[bvh.nodes[i].left() / 2], visits[i / 2]);
     }
     const ThreadLimit one(1);
-    EXPECT_EQ(countVisits(scene, bvh, rays, Query::closest), visits);
+    EXPECT_EQ(countVisits(scene, bvh, rays, QueryKind::closest), visits);
 }
 
 }  // namespace

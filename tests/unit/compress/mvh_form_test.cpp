@@ -16,8 +16,8 @@
 namespace bvhio {
 namespace {
 
-// Leaves in their order from left to right, found by walking down, own one run after the other; only the last
-// one is short.
+// Leaves from left to right, found by a walk from the root, own one run after another. Only the last one is
+// short.
 TEST(MvhShape, leavesOwnRunsFromLeftToRight) {
     for (const uint32_t leafSize : {1u, 3u, 4u, 16u})
         for (uint32_t count = 1; count <= 200; ++count) {
@@ -58,7 +58,7 @@ TEST(MvhShape, treesThatShareAnArrayDoNotOverlap) {
     }
 }
 
-// Each code's planes are one product and one sum away from the parent's; an axis has its turn by size.
+// Each code moves planes by one product and one sum from the parent's. Axes take turns in the order of size.
 TEST(MvhCuts, cutTheAxisWhoseTurnItIs) {
     const Aabb box{{0, 10, -1}, {2, 14, 1}};  // y is the longest; x and z are equal, so x counts as longer
     const MvhRule rule{0.5f, 0.25f, 3};
@@ -102,8 +102,7 @@ TEST(MvhForm, takesTwoBitsANode) {
 
 class MvhInScene : public testing::TestWithParam<test::TestScene> {};
 
-// Boxes, compared as floats, hold what is below them, for leaves and zetas of all kinds, and however few
-// triangles there are.
+// Boxes, compared as floats, hold what is below them, for all leaf sizes and zetas, even with few triangles.
 TEST_P(MvhInScene, boxesHoldTheirTriangles) {
     const Scene scene = GetParam().make();
     for (const MvhBuild build : {MvhBuild::best, MvhBuild::paper})
@@ -150,8 +149,8 @@ INSTANTIATE_TEST_SUITE_P(Awkward, MvhInScene,
                          testing::ValuesIn(test::testScenes().begin(), test::testScenes().end()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// Several trees over runs of one array, in the nibbles of one array: each decodes to boxes that hold its
-// triangles, whatever its neighbours are.
+// Several trees share one array of primitives and one of nibbles. Each decodes to boxes that hold its
+// triangles, whatever its neighbors are.
 TEST(MvhForest, sharesItsArrays) {
     const Scene scene = test::sceneOf(test::randomTriangles(700, 1, 0.1f));
     std::vector<MvhReference> references = mvhReferences(scene);
@@ -194,7 +193,7 @@ TEST(MvhForest, sharesItsArrays) {
     }
 }
 
-// A run is long enough here that several threads divide it.
+// The run is so long that several threads divide it.
 TEST(MvhForm, isTheSameForAnyNumberOfThreads) {
     const Scene scene = test::sceneOf(test::randomTriangles(20000, 1, 0.01f));
     uint64_t hashes[2];
@@ -205,7 +204,7 @@ TEST(MvhForm, isTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-// A longest axis that cannot be cut stalls the paper's tree: boxes stay as they are all the way down. Here
+// If the longest axis cannot be cut, the paper's tree stalls: all boxes stay as large as the root's. Here
 // each triangle is as long as the scene.
 TEST(MvhForm, cutsAcrossLongTriangles) {
     std::vector<Triangle> triangles;

@@ -19,7 +19,7 @@ QuantizedForm encode(AlignedVector<Node> nodes, uint32_t primitives, uint32_t bi
     return QuantizedForm::encode({}, {std::move(nodes), std::move(order)}, options);
 }
 
-// 0 for the parent's planes; the others by the child that has them, rounded outwards.
+// An inset of 0 is the parent's plane. Other planes are their child's, rounded outwards.
 TEST(QuantizedForm, storesInsetsOfTheChildThatHasThePlane) {
     const QuantizedForm form = encode({{{{0, 0, 0}, {256, 16, 1}}, 2, 0},
                                        {},
@@ -41,7 +41,7 @@ TEST(QuantizedForm, storesInsetsOfTheChildThatHasThePlane) {
     EXPECT_EQ(decoded.nodes[3].bounds, (Aabb{{100, 0, 0}, {256, 16, 1}}));
 }
 
-// Where rounding left the parent larger than both, the child that lies further inside has the plane.
+// If rounding made the parent larger than both children, the child that lies further inside has the plane.
 TEST(QuantizedForm, givesThePlaneToTheChildFurtherInside) {
     const QuantizedForm form = encode({{{{0, 0, 0}, {256, 1, 1}}, 2, 0},
                                        {},
@@ -103,7 +103,7 @@ TEST(QuantizedForm, refusesMoreReferencesThanItsWordsCanName) {
     }
 }
 
-// A leaf at the greatest depth has no room for a level more.
+// A leaf at the greatest depth has no room for another level.
 TEST(QuantizedForm, refusesToDivideLeavesThatLieTooDeep) {
     const Aabb box{{0, 0, 0}, {1, 1, 1}};
     AlignedVector<Node> nodes{{box, 2, 0}, {}};

@@ -115,7 +115,7 @@ TEST(QuantizedShortForm, holdsLeavesOfUpTo32AndDividesLargerOnes) {
     }
 }
 
-// Clusters by what a map says of the tree with its large leaves would be of no use.
+// A slot map for the tree with its large leaves does not fit the tree with divided leaves.
 TEST(QuantizedShortForm, makesClustersAnewWhereLeavesAreDivided) {
     Bvh bvh = test::treeOfPairs({{0, 2}});
     bvh.nodes =

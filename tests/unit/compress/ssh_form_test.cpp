@@ -20,7 +20,7 @@ Bvh twoBoxes() {
     return {std::move(nodes), std::vector<uint32_t>{0, 1}};
 }
 
-// The one plane that shrinks each child most; the lower child comes first.
+// Each child has the one plane that shrinks its box most. The lower child comes first.
 TEST(SshForm, keepsThePlaneThatSavesMost) {
     const SshForm form = SshForm::encode({}, twoBoxes(), {});
     ASSERT_EQ(form.nodes().size(), 4u);
@@ -37,7 +37,7 @@ TEST(SshForm, keepsThePlaneThatSavesMost) {
     EXPECT_EQ(right.firstPrimitive(), 0u);
 }
 
-// A box that differs from its parent's on several sides keeps one of them; the others come with deeper nodes.
+// A box that differs from its parent's on several sides stores one of them. Deeper nodes store the others.
 TEST(SshForm, inheritsTheOtherSides) {
     AlignedVector<Node> nodes{
         {{{0, 0, 0}, {4, 4, 4}}, 2, 0}, {}, {{{0, 0, 0}, {1, 2, 4}}, 0, 1}, {{{3, 0, 0}, {4, 4, 4}}, 1, 1}};
@@ -78,7 +78,7 @@ Bvh deepChain(uint32_t last) {
     return {std::move(nodes), std::vector<uint32_t>(kMaxDepth + last)};
 }
 
-// Halves of a leaf at the greatest depth would lie below it, where no traversal has room for them.
+// Halves of a leaf at the greatest depth would be deeper than any traversal has room for.
 TEST(SshForm, refusesLargeLeavesThatLieTooDeepToBeDivided) {
     EXPECT_THROW(SshForm::encode({}, deepChain(SshNode::kMaxLeafSize + 1), {}), Error);
     const Bvh fits = deepChain(SshNode::kMaxLeafSize);

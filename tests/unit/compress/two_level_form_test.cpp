@@ -30,7 +30,8 @@ uint32_t primitivesBelow(const Bvh& bvh, const Node& node) {
     return primitivesBelow(bvh, bvh.nodes[node.left()]) + primitivesBelow(bvh, bvh.nodes[node.right()]);
 }
 
-// A cut that takes subtrees too large, or stops before the largest, changes neither hits nor the joined tree.
+// A cut at subtrees that are too large, or smaller than possible, would change neither hits nor the joined
+// tree. So this checks the cut itself.
 TEST(TwoLevels, cutOffTheLargestSubtreesThatAreSmallEnough) {
     const Bvh bvh = builders()[0].function(soup(), {.costs = {}, .maxLeafSize = 3});
     const TwoLevels levels = cutTree(bvh, 20);
@@ -86,7 +87,7 @@ TEST(MvhBlases, takeAByteForEveryLeaf) {
     EXPECT_LT(double(TwoLevelForm::encode(scene, bvh, {}).nodeBytes()), 0.4 * double(scene.triangles.size()));
 }
 
-// Both levels count, and leaves of the top level are no leaves.
+// Both levels count, and leaves of the top level do not count as leaves.
 TEST(TwoLevelForm, countsWhatOneTreeCounts) {
     const Scene scene = soup();
     const Bvh bvh = builders()[0].function(scene, {});
@@ -102,7 +103,7 @@ TEST(TwoLevelForm, countsWhatOneTreeCounts) {
     EXPECT_GT(b.records, a.records);  // roots
 }
 
-// A quantized tree is the same in one level and in two: what is found below the cut must go on from the
+// A quantized tree has the same boxes in one level and in two: boxes below the cut must continue from the
 // insets and the places above it, not from rounded boxes.
 TEST(QuantizedBlases, goOnWhereTheTopEnds) {
     const Scene scene = soup();
@@ -122,8 +123,7 @@ TEST(QuantizedBlases, goOnWhereTheTopEnds) {
     }
 }
 
-// Boxes that rays see must be those that decode tells: a byte too far and a triangle is lost, so a code that
-// cuts what its leaf needs must not be chosen.
+// Each code cuts along one axis, by the parts that mvhCut states.
 TEST(MvhBlases, everyCodeLeavesTheOtherAxesAlone) {
     const InsetFrame frame({{0, 0, 0}, {16, 32, 64}});
     for (uint32_t code = 0; code < kMvhCodes; ++code) {

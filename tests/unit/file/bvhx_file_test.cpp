@@ -175,7 +175,7 @@ TEST(BvhxFile, unknownChunksStayUntilAPassDoesWhatTheyDoNotSurvive) {
     EXPECT_EQ(changed.unknownChunks[0].flags, kSurvivesTopologyChange);
 }
 
-// Visits of other nodes would be no error that a reader could see.
+// A reader could not notice visits that belong to other nodes.
 TEST(BvhxFile, visitsSurviveNoChange) {
     for (const Change change : {Change::reordered, Change::topologyChanged}) {
         BvhxFile file = sampleFile();
@@ -197,7 +197,7 @@ TEST(BvhxFile, namesThatAreNoTextBecomeText) {
               "caf\xEF\xBF\xBD \xF0\x9F\x8C\xB2 \xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
 }
 
-// A writer makes nothing that a reader refuses: scenes without geometries became files that end with finding
+// A writer makes no file that a reader refuses. Scenes without geometries used to make files with finding
 // 2007.
 TEST(BvhxFile, scenesAndTreesThatNoReaderTakesAreNotWritten) {
     const auto expectRefused = [](const BvhxFile& file, const char* word) {

@@ -41,12 +41,12 @@ TEST(Topology, orderOfNodesCostsOnlyTreesThatHaveAnother) {
     EXPECT_EQ(topologyBytes(written(file, kTopology)), before + 4 * (pairs - 1) + 4 * pairs);
 }
 
-// Boxes that contain more than they must are valid.
+// Boxes may be larger than their content.
 TEST(Topology, boxesThatARefitDoesNotGiveAreStored) {
     BvhxFile file = sampleFile(100);
     const Bvh bvh = decode(file.bvh);
     AlignedVector<Node> nodes(bvh.nodes.begin(), bvh.nodes.end());
-    // A leaf grows, and its ancestors with it, who need not be stored; the root grows further.
+    // A leaf grows, and its ancestors with it, which need not be stored. The root grows further.
     Node& leaf = *std::find_if(nodes.begin(), nodes.end(), [](const Node& n) { return n.isLeaf(); });
     leaf.bounds.max.x = 1e10f;
     for (size_t i = nodes.size(); i-- > 0;)
@@ -73,7 +73,7 @@ TEST(Topology, keepsNegativeZero) {
     }
 }
 
-// Vertices move, and a reader fits boxes to where it finds them.
+// Vertices move, and a reader fits boxes to their new positions.
 TEST(Topology, fitsBoxesToDracosVertices) {
     const BvhxFile file = sampleFile(300);
     WriteOptions options{.geometry = GeometryEncoding::draco, .dracoPositionBits = 11};

@@ -1,4 +1,4 @@
-// What an instanced scene's hits are: nearly those of the same scene with every triangle copied to its place.
+// The hits of an instanced scene nearly equal those of the same scene with each triangle copied to its place.
 #include <gtest/gtest.h>
 
 #include "common/instanced_scenes.h"
@@ -38,7 +38,7 @@ TEST(Instances, hitsAreThoseOfTheFlattenedScene) {
             const Hit hit = bruteForceClosestHit(scene, ray), expected = bruteForceClosestHit(flat, ray);
             EXPECT_EQ(bruteForceAnyHit(scene, ray), !hit.isMiss());
             hits += !hit.isMiss();
-            // A ray that passes an edge closely may go either way.
+            // A ray that passes close to an edge may hit or miss.
             others += hit.isMiss() != expected.isMiss() || hit.primitive != expected.primitive ||
                       std::fabs(hit.t - expected.t) > 1e-5f * expected.t;
         }
@@ -66,7 +66,7 @@ TEST(Instances, surfacePointsLieOnTheViewersSide) {
     }
 }
 
-// The box of an instance is part of what a hit is: traversal may find triangles that lie before it.
+// A hit must lie in its instance's box. Traversal may find triangles in front of that box.
 TEST(Instances, hitsBeforeTheInstancesBoxDoNotCount) {
     const PreparedRay ray(Ray{{0, 0, 0}, 0, {0, 0, 1}});
     ClosestHitQuery query(ray);

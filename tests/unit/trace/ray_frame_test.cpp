@@ -71,8 +71,8 @@ void step(const InsetFrame& insets, const std::array<float, 6>& f, PlacedBox& pl
     }
 }
 
-// The contract of every form: what clipToBox accepts is accepted, from no later. Without the margin this
-// fails within a few chains.
+// The contract of every form: a ray that clipToBox accepts is accepted, and enters no later. Without the
+// margin this test fails within a few chains.
 TEST(RayFrame, acceptsWhateverClipToBoxAcceptsAllTheWayDown) {
     Random random(1);
     size_t regular = 0, entered = 0;
@@ -107,8 +107,8 @@ TEST(RayFrame, acceptsWhateverClipToBoxAcceptsAllTheWayDown) {
     EXPECT_GT(entered, 50000u);
 }
 
-// The lemma itself, against long double: the margin left is what the proof says, and the box is not moved
-// much further than the margin either.
+// The lemma itself, against long double: the remaining margin is what the proof says, and the box does not
+// move much further than the margin.
 TEST(RayFrame, keepsTheMarginThatItProves) {
     constexpr long double u = 0x1p-24L;
     Random random(2);
@@ -146,7 +146,7 @@ TEST(RayFrame, keepsTheMarginThatItProves) {
     EXPECT_GT(compared, 100000u);
 }
 
-// Scenes beyond what floats can subtract: every box is entered.
+// The extent of the scene overflows a float: every box is entered.
 TEST(RayFrame, entersEveryBoxWhereExtentsOverflow) {
     const float far = std::numeric_limits<float>::max();
     const PreparedRay ray(Ray{{-far, -far, -far}, 0, {1, 1, 1}});

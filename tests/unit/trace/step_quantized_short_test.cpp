@@ -9,7 +9,7 @@ namespace {
 
 using namespace HWY_NAMESPACE;
 
-/// Where records are fetched.
+/// Records where records are fetched.
 struct FetchMetrics : NoMetrics {
     std::vector<size_t> offsets;
     void recordFetched(size_t offset, size_t bytes) {
@@ -18,7 +18,7 @@ struct FetchMetrics : NoMetrics {
     }
 };
 
-// Caches are modelled by what is told: the glue, and the record that it leads to.
+// The cache model needs both fetches: the glue, and the record that it leads to.
 TEST(StepQuantizedShort, tellsOfEachSlotThatIsFetched) {
     Bvh bvh = test::treeOfPairs({{0, 2}, {2, 4}, {4, 6}});
     bvh.slots = {2, 2, std::vector<uint32_t>{0, SlotMap::kGlue | 1, 1, 2}};

@@ -10,8 +10,8 @@
 namespace bvhio {
 namespace {
 
-// Fails if a tie goes to another triangle than the lowest. That all ways of tracing agree does not show it:
-// they share the rule.
+// Fails if a tie goes to another triangle than the lowest. That all ways of tracing agree does not show this,
+// because they share the rule.
 TEST(Tracer, givesTiesToTheLowestTriangle) {
     const Scene scene =
         makeScene({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<TriangleIndices>(9, {0, 1, 2}));

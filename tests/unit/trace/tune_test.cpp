@@ -90,7 +90,7 @@ TEST(Tune, measuresEveryCandidate) {
     }
 }
 
-// Nothing to see, and so no rays that bounce off it: the means must not be of nothing.
+// Primary rays hit nothing, so there are no bounced rays. No mean may divide by a count of 0.
 TEST(Tune, takesScenesWithoutArea) {
     const Scene scene = test::sceneOf(std::vector<Triangle>(9, {{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}));
     const std::vector<TunedEncoding> rows =

@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kForever = std::numeric_limits<float>::infinity();
 
-// One ray goes through both leaves below the root's left child, one hits the nearer of them, one enters the
-// root alone, one misses it, and one misses by definition.
+// One ray goes through both leaves below the root's left child, one hits the nearer of them, one enters only
+// the root, one misses the root, and one misses by definition.
 TEST(Visits, countTheRaysThatFetchAPair) {
     const Scene scene = test::sceneOf({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                                        {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
@@ -38,7 +38,7 @@ TEST(Visits, countTheRaysThatFetchAPair) {
 TEST(Visits, areWhatMeasuringCountsAndNeverAboveTheParents) {
     const Scene scene = test::sceneOf(test::randomTriangles(500, 1, 0.2f));
     const Bvh bvh = buildBinned(scene, {});
-    std::vector<Ray> rays(70000);  // more than one task has
+    std::vector<Ray> rays(70000);  // more than the rays of one task
     Random random(1);
     const auto point = [&] {
         const float x = random.uniform(-1, 1), y = random.uniform(-1, 1);

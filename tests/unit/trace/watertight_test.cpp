@@ -1,4 +1,4 @@
-// No ray slips out of a closed mesh: not at edges, not at corners, at no size and nowhere.
+// No ray slips out of a closed mesh: not at edges or corners, at any size and at any place.
 #include <gtest/gtest.h>
 
 #include "build/builders.h"

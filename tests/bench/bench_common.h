@@ -1,4 +1,4 @@
-// What the benchmarks share: scenes, clocks, Embree as the peer, and tables.
+// Parts that the benchmarks share: scenes, clocks, Embree for comparison, and tables.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -21,7 +21,7 @@ inline Scene loadScene(const std::filesystem::path& path) {
     return flatten(importFile(path), {});
 }
 
-/// Time on the wall, and the processor's over all threads, which other programs disturb less.
+/// Wall-clock time, and processor time over all threads, which other programs disturb less.
 struct Seconds {
     double wall = 0, processor = 0;
 };
@@ -46,7 +46,7 @@ inline double median(std::vector<double> values) {
     return *middle;
 }
 
-/// What build_bench and load_bench take: [--rounds N] [--threads N] SCENE..., and one option of the
+/// The arguments of build_bench and load_bench: [--rounds N] [--threads N] SCENE..., and one option of the
 /// program's own, which may be given several times.
 struct Arguments {
     int rounds = 15;
@@ -101,7 +101,7 @@ class EmbreeScene {
         : scene_(rtcNewScene(device.get())) {
         rtcSetSceneBuildQuality(scene_, quality);
         rtcSetSceneFlags(scene_, flags);
-        // Embree reads 16 bytes at the last vertex, so it gets arrays of its own.
+        // Embree reads 16 bytes at the last vertex, so it gets its own arrays.
         const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetGeometryBuildQuality(geometry, quality);
         void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -125,7 +125,7 @@ class EmbreeScene {
     RTCScene scene_;
 };
 
-/// Prints rows under a header: the first column to the left, the others to the right.
+/// Prints rows under a header. The first column is aligned to the left, the others to the right.
 class Table {
   public:
     explicit Table(const std::vector<std::string>& header) { row(header); }

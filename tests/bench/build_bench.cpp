@@ -1,8 +1,8 @@
-// Building and restructuring: chains of ours and Embree's three qualities, interleaved in each round.
-// Usage: build_bench [--rounds N] [--threads N] [--chain BUILDER[+METHOD[:ITERATIONS]]]... SCENE...
-// Without --chain: every builder, then every restructurer over the default builder. Times are medians, of the
-// whole chain; `restructure` is the part of it that the restructurers took. Costs are for 1/1, those that
-// papers report, and the tree is built for them too.
+// Times building and restructuring: our chains and Embree's three qualities, interleaved in each round.
+// Usage: build_bench [--rounds N] [--threads N] [--chain BUILDER[+METHOD[:ITERATIONS]]]... SCENE... Without
+// --chain: every builder, then every restructurer after the default builder. Times are medians of the whole
+// chain, and `restructure` is the restructurers' part of it. Trees are built for SAH costs of 1 and 1, as
+// papers report them.
 
 #include "chain.h"
 #include "core/parallel.h"

@@ -13,7 +13,7 @@ namespace bvhio::bench {
 
 class Chain {
   public:
-    /// Throws Error{usage} for names that no table has.
+    /// Throws Error{usage} for a name that is in no table.
     explicit Chain(const std::string& name) : name_(name) {
         const size_t at = std::min(name.find('@'), name.size());
         if (at < name.size()) form_ = formOfChain(name.substr(at + 1));

@@ -1,7 +1,7 @@
-// Loading against rebuilding: a .bvhx file opened, all of it checked, and its first ray answered, against
-// Embree's medium build over triangles that are in memory already. Files lie in the page cache, so the times
-// are the processor's work alone; the break-even says how fast a disk must be for loading to win even when
-// nothing of the file is cached.
+// Compares loading with rebuilding. Loading opens a .bvhx file, checks all of it and traces one ray.
+// Rebuilding is Embree's medium build over triangles that are in memory already. Files are in the page cache,
+// so the times are those of the processor alone. The break-even says how fast a disk must be for loading to
+// win if nothing of the file is cached.
 // Usage: load_bench [--rounds N] [--threads N] SCENE...
 
 #include <stdlib.h>
@@ -22,7 +22,7 @@ using namespace bvhio;
 using namespace bvhio::bench;
 namespace fs = std::filesystem;
 
-/// A new directory for files that last as long as it does.
+/// A new directory, which is removed with its files.
 class TemporaryDirectory {
   public:
     TemporaryDirectory() {
@@ -61,7 +61,7 @@ Stored store(const fs::path& folder, const BvhxFile& content, const std::string&
     return stored;
 }
 
-/// From a corner of the scene's box to the middle of a triangle: a hit for sure.
+/// Returns a ray from a corner of the scene's box to the middle of a triangle, which surely hits.
 Ray firstRay(const Scene& scene, const Bvh& bvh) {
     const Triangle triangle = scene.triangle(scene.triangles.size() / 2);
     const Vec3 middle = (triangle.v0 + triangle.v1 + triangle.v2) * (1.0f / 3);

@@ -1,16 +1,16 @@
-// How a ray steps through a tree of the mvh form (compress/mvh_tree.h): two levels at once, the four
-// grandchildren of a node beside each other in the lanes of vectors.
+// Steps rays through a tree of the mvh form (compress/mvh_tree.h), two levels at once. The four grandchildren
+// of a node are in the four lanes of vectors.
 //
-// What a step down takes is mostly time to wait: for the sizes of a box, then for the axis, then for its
-// planes, then for the next box. So neither branches nor addresses depend on the axis here: it is a mask.
+// A step down mostly waits for results: for the sizes of a box, then for the axis, then for its planes, then
+// for the next box. So neither branches nor addresses depend on the axis here: it is a mask.
 //
-// Boxes are held as the ray meets their planes, near and far. For a ray that goes down an axis the signs of
-// MvhCuts' sums are swapped, which rounding does not see: the planes are the same numbers. Each one on the
-// way down is clipped by the arithmetic of clipToPlanes, so the interval is what that finds for the box that
-// all of them bound.
+// Boxes are stored as near and far planes of the ray. For a ray that goes down an axis, the signs of MvhCuts'
+// sums are swapped. This does not change rounding, so the planes are the same numbers. Each plane on the way
+// down is clipped by the arithmetic of clipToPlanes. So the interval is the one that clipToPlanes finds for
+// the box of all these planes.
 //
-// The vectors are the compiler's, for any processor; those of one without such come out as loops. Per target,
-// like trace/traverse.h.
+// The vectors are the compiler's, for any processor. On a processor without vectors they become loops.
+// Compiled for each target, like trace/traverse.h.
 #if defined(BVHIO_TRACE_STEP_MVH_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BVHIO_TRACE_STEP_MVH_H
 #undef BVHIO_TRACE_STEP_MVH_H
@@ -25,11 +25,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace bvhio::HWY_NAMESPACE {
 
-/// A ray with what its steps need, by axis and for four lanes.
+/// A ray, with the numbers that its steps need, by axis and in all four lanes.
 struct MvhRay {
     struct Axis {
         Four origin, near, minusFar;  // reciprocals
-        FourInts backwards;           // all ones where the ray goes down the axis
+        FourInts backwards;           // all ones if the ray goes down the axis
     };
 
     const PreparedRay& ray;
@@ -50,7 +50,7 @@ struct MvhRay {
     }
 };
 
-/// A whole tree's box, which the ray enters.
+/// Returns the box of a tree's root, which the ray enters in `interval`.
 HWY_INLINE MvhPart mvhPart(const MvhRay& ray, const Aabb& box, RayInterval interval) {
     MvhPart part;
     for (int a = 0; a < 3; ++a) {
@@ -63,8 +63,9 @@ HWY_INLINE MvhPart mvhPart(const MvhRay& ray, const Aabb& box, RayInterval inter
     return part;
 }
 
-/// In which order a step visits its lanes, by what is swapped (bit 0: left and right, 1 and 2: those below
-/// each) and which are entered: a byte for each, from the lowest on.
+/// The order in which a step visits lanes: a byte for each, from the lowest on. The indices are a mask of
+/// what is swapped (bit 0: the left and right child; bits 1 and 2: their children), and a mask of entered
+/// lanes.
 struct MvhOrder {
     uint32_t lanes[8][16];
     constexpr MvhOrder() : lanes{} {
@@ -81,11 +82,12 @@ struct MvhOrder {
 };
 inline constexpr MvhOrder kMvhOrder;
 
-/// What a step enters, nearest first.
+/// The result of a step: the entered nodes, the nearest first.
 struct MvhStep {
     uint32_t count;
-    uint32_t lanes;  // a byte for each: which grandchild, 0 to 3; without a second level 0 is the left child,
-                     // 2 the right
+    // A byte for each entered node: its lane. Lanes 0 to 3 are the grandchildren. With one level, lane 0 is
+    // the left child, and lane 2 the right one.
+    uint32_t lanes;
     MvhPart parts[4];  // by lane
     FourInts turns;
 
@@ -95,7 +97,7 @@ struct MvhStep {
 /// The vectors of a step.
 struct MvhLanes {
     Four near[3], far[3], enter, minusExit;
-    FourInts turn;  // minus whose turn it is
+    FourInts turn;  // minus the turns (MvhBox::turn)
 
     template <int lane>
     static HWY_INLINE Four all(Four v) {
@@ -112,16 +114,17 @@ struct MvhLanes {
           minusExit(max(all<3>(part.far), all(-tLimit))),
           turn(-all(int32_t(startTurn))) {}
 
-    /// Goes from nodes to children: `low`, `swap` and `none` are the children's of MvhTables::Lanes. Returns
-    /// all ones where the ray goes down the axis that is cut.
+    /// Goes from nodes to their children. `low`, `swap` and `none` are those of the children's codes in
+    /// MvhTables::Lanes. Returns all ones in lanes where the ray goes down the axis that is cut.
     HWY_INLINE FourInts descend(const MvhRay& ray, uint32_t axes, FourInts low, FourInts swap,
                                 FourInts none) {
+        // Compute the sizes of the boxes. Differences are negative if the ray goes down an axis.
         Four sizes[3], lengths[3];
         for (int a = 0; a < 3; ++a) {
             sizes[a] = far[a] - near[a];
             lengths[a] = Four(FourInts(sizes[a]) & all(0x7fffffff));
         }
-        // An axis' place in the order is how many are longer.
+        // Select the axis that is cut. Its place in the order of sizes is the number of longer axes.
         const FourInts y = lengths[1] > lengths[0], z = lengths[2] > lengths[0], zy = lengths[2] > lengths[1];
         const FourInts isX = (y + z) == turn, isY = (~y + zy) == turn, isZ = ~(isX | isY);
         const auto select = [&](Four ofX, Four ofY, Four ofZ) {
@@ -130,6 +133,7 @@ struct MvhLanes {
         const auto ofRay = [&](const auto& member) {
             return select(Four(ray.axes[0].*member), Four(ray.axes[1].*member), Four(ray.axes[2].*member));
         };
+        // Move its planes.
         const Four largest = all(std::numeric_limits<float>::max());
         const Four size = max(min(select(sizes[0], sizes[1], sizes[2]), largest), -largest);
         const auto backwards = FourInts(ofRay(&MvhRay::Axis::backwards));
@@ -137,10 +141,11 @@ struct MvhLanes {
         const Four nearPlane = select(near[0], near[1], near[2]) + Four(nearPart) * size;
         const Four farPlane = select(far[0], far[1], far[2]) - Four(farPart) * size;
         const Four origin = ofRay(&MvhRay::Axis::origin);
-        // Of a NaN and a number the maximum is the second, the number, as in clipToPlanes. Where the ray
-        // leaves is held with its sign swapped.
+        // Clip the intervals. The maximum of a NaN and a number is the second operand, the number, as in
+        // clipToPlanes. The end of an interval is stored with its sign swapped.
         enter = max((nearPlane - origin) * ofRay(&MvhRay::Axis::near), enter);
         minusExit = max((farPlane - origin) * ofRay(&MvhRay::Axis::minusFar), minusExit);
+        // Store the planes, and whose turn it is below.
         const FourInts masks[3] = {isX, isY, isZ};
         for (int a = 0; a < 3; ++a) {
             near[a] = blend(masks[a], nearPlane, near[a]);
@@ -151,14 +156,14 @@ struct MvhLanes {
         return backwards;
     }
 
-    /// Whether the lanes that `neighbours` holds are nearer than these. Builders put the lower child to the
-    /// left, along the axis that is cut: that decides between equal ones.
+    /// Returns which lanes come after their sibling, whose `enter` is in `neighbours`. If both are equally
+    /// near, the direction along the cut axis decides, since builders put the lower child to the left.
     HWY_INLINE FourInts isAfter(Four neighbours, FourInts backwards) const {
         return (neighbours < enter) | (backwards & (neighbours == enter));
     }
 };
 
-/// What four vectors have in each lane.
+/// The transpose of four vectors: one vector for each lane.
 struct MvhRows {
     Four of[4];
 
@@ -174,7 +179,7 @@ struct MvhRows {
     }
 };
 
-/// A bit for each lane.
+/// Returns a bit for each lane of a mask.
 HWY_INLINE uint32_t bitsOf(FourInts mask) {
 #if defined(__SSE__)
     return uint32_t(_mm_movemask_ps(__m128(mask)));
@@ -183,9 +188,9 @@ HWY_INLINE uint32_t bitsOf(FourInts mask) {
 #endif
 }
 
-/// Tests the children of a node against the ray, and at once theirs where `twoLevels`. `codes` is the node's
-/// nibble, and with two levels `leftCodes` and `rightCodes` are the children's, else 0. A child that is
-/// missed has children that are missed.
+/// Tests the children of a node against the ray and, if `twoLevels`, its grandchildren too. `codes` is the
+/// node's nibble. With two levels, `leftCodes` and `rightCodes` are the children's nibbles, otherwise 0. If a
+/// child is missed, its children are missed too.
 HWY_INLINE void stepMvh(const MvhTables& tables, const MvhRay& ray, uint32_t codes, uint32_t leftCodes,
                         uint32_t rightCodes, bool twoLevels, const MvhPart& part, uint32_t turn, float tLimit,
                         MvhStep& step) {
@@ -195,11 +200,13 @@ HWY_INLINE void stepMvh(const MvhTables& tables, const MvhRay& ray, uint32_t cod
         std::memcpy(&loaded, values.data(), sizeof loaded);
         return loaded;
     };
+    // Go down to the children.
     const MvhTables::Lanes<4>& first = tables.children[codes];
     FourInts backwards =
         lanes.descend(ray, tables.axes, load4(first.low), load4(first.swap), load4(first.none));
     uint32_t swapped =
         bitsOf(lanes.isAfter(__builtin_shufflevector(lanes.enter, lanes.enter, 2, 3, 0, 1), backwards)) & 1;
+    // Go down to the grandchildren.
     if (twoLevels) {
         const auto load2 = [](const auto& left, const auto& right) {
             using Two = int64_t __attribute__((vector_size(16)));
@@ -216,6 +223,7 @@ HWY_INLINE void stepMvh(const MvhTables& tables, const MvhRay& ray, uint32_t cod
             bitsOf(lanes.isAfter(__builtin_shufflevector(lanes.enter, lanes.enter, 1, 0, 3, 2), backwards));
         swapped |= (below & 1) << 1 | (below & 4);
     }
+    // Collect the entered nodes.
     const uint32_t entered = bitsOf(lanes.enter <= -lanes.minusExit) & (twoLevels ? 15 : 5);
     step.count = uint32_t(std::popcount(entered));
     step.lanes = kMvhOrder.lanes[swapped][entered];
@@ -234,8 +242,9 @@ class Stepper<MvhForm> {
     using Cursor = MvhCursor;
     using Ray = MvhRay;
     static constexpr int kMaxPushed = 3;
-    /// Per box, as the planes of both children are made together: half of 3 sizes, 2 products and 4 planes;
-    /// 2 differences and 2 products. Half of 2 comparisons for the axis; 2 for the interval, 2 to compare.
+    /// The cost per box. Both children share 3 sizes, 2 products, 4 planes and 2 comparisons for the axis;
+    /// half of these count. Each box has 2 differences and 2 products, and 2 comparisons for the interval and
+    /// 2 for the test.
     static constexpr BoxTestCost kBoxTestCost{9, 5};
 
     explicit Stepper(const MvhForm& form)
@@ -252,7 +261,7 @@ class Stepper<MvhForm> {
         return !interval.isEmpty();
     }
 
-    /// A record is the word that has a node's nibble; those of siblings count as one.
+    /// A record is the word that holds a node's nibble. The words of siblings count as one.
     template <class Metrics>
     HWY_INLINE bool step(const Entered<Cursor>& from, const MvhRay& ray, float tLimit, Entered<Cursor>& next,
                          Entered<Cursor>*& top, Metrics& metrics) const {
@@ -275,7 +284,7 @@ class Stepper<MvhForm> {
             enter(i - 1, *top++);
             metrics.pushed(sizeof(Entered<Cursor>));
         }
-        enter(0, next);  // means nothing where none is entered
+        enter(0, next);  // without meaning if no node is entered
         return step.count != 0;
     }
 

@@ -1,8 +1,8 @@
 // Times building and restructuring: our chains and Embree's three qualities, interleaved in each round.
-// Usage: build_bench [--rounds N] [--threads N] [--chain BUILDER[+METHOD[:ITERATIONS]]]... SCENE... Without
-// --chain: every builder, then every restructurer after the default builder. Times are medians of the whole
-// chain, and `restructure` is the restructurers' part of it. Trees are built for SAH costs of 1 and 1, as
-// papers report them.
+// Usage: build_bench [--rounds N] [--threads N] [--chain BUILDER[+METHOD[:ITERATIONS]]]... SCENE...
+// Without --chain: every builder, then every restructurer after the default builder. Times are medians of the
+// whole chain, and `restructure` is the restructurers' part of it. Costs are for SAH parameters 1 and 1, as
+// papers report them, and trees are built for these too.
 
 #include "chain.h"
 #include "core/parallel.h"

@@ -9,11 +9,11 @@ namespace {
 
 using namespace HWY_NAMESPACE;
 
-/// A node as the boxes of one node after the other tell it.
+/// A node whose box is computed and clipped node by node.
 struct Reference {
     MvhBox box;
     RayInterval interval;
-    uint32_t axis = 0;  // that its children are cut along
+    uint32_t axis = 0;  // along which its children are cut
 
     Reference child(const PreparedRay& ray, const MvhRule& rule, uint32_t code, float tLimit) const {
         Reference child{MvhCuts(box, rule).child(box, code), {}};
@@ -23,7 +23,7 @@ struct Reference {
         child.axis = MvhCuts(child.box, rule).axis;
         return child;
     }
-    /// Whether a ray meets this node's right child first.
+    /// Returns whether a ray enters this node's right child first.
     bool isSwapped(const PreparedRay& ray, const Reference& left, const Reference& right) const {
         return right.interval.enter < left.interval.enter ||
                (right.interval.enter == left.interval.enter && ray.nearPlane[axis] >= 3);
@@ -34,7 +34,7 @@ class MvhStepTest : public testing::Test {
   protected:
     uint32_t below(uint32_t n) { return random_.below(n); }
     float number() { return float(below(4096)) / 256 - 8; }
-    /// Whole numbers and others, axes without an extent, and boxes that are larger than floats can tell.
+    /// Returns boxes with whole and other numbers, with axes without extent, and with extents beyond floats.
     Aabb box() {
         Aabb box;
         for (int axis = 0; axis < 3; ++axis) {
@@ -61,9 +61,9 @@ class MvhStepTest : public testing::Test {
     Random random_{1};
 };
 
-// What four lanes find two levels at a time must be, bit for bit, what the boxes tell one after the other: a
+// Steps of two levels in four lanes must find, bit for bit, the same as boxes that are computed node by node: a
 // plane that differs in one bit loses hits.
-TEST_F(MvhStepTest, isWhatBoxesTellOneAfterTheOther) {
+TEST_F(MvhStepTest, findsTheSameAsBoxesNodeByNode) {
     size_t steps = 0, entered = 0;
     while (steps < 20000) {
         const MvhRule rule{0.25f + float(below(64)) / 256, 0.25f, 1 + below(3)};

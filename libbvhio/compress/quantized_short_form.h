@@ -58,7 +58,7 @@ class ShortRecord {
     static constexpr uint32_t kLowBits = 32 - SlotMap::kReferenceBits, kInLow = 1u << kLowBits;
 
     /// One word each for the min and the max sides. Bits 0 to 17: three insets. Bits 18 to 20: the owners of
-    /// these planes, 1 for the right child. Bits 21 to 31: the left, and in the other word the right reference.
+    /// these planes, 1 for the right child. Bits 21 to 31: the left, in the other word the right reference.
     std::array<uint32_t, 2> words_{};
 };
 static_assert(sizeof(ShortRecord) == 8);

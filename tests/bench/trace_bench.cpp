@@ -1,21 +1,21 @@
 // Compares the speed of tracing with Embree's robust mode, on one thread: closest hits of primary and diffuse
-// rays through the trees of one or several chains. Runs of all of them are interleaved and medians are taken, so
-// a busy machine slows all of them equally. Hits must agree with Embree's, except where t differs by less than
-// 1e-5 of itself.
+// rays through the trees of one or several chains. Runs of all of them are interleaved and medians are taken,
+// so a busy machine slows all of them equally. Hits must agree with Embree's, except where t differs by less
+// than 1e-5 of itself.
 //
 //     trace_bench [--rounds N] [--resolution N] [--intersection-cost C]
 //                 [--chain BUILDER[+METHOD[:ITERATIONS]]...[@FORM[:KEY=VALUE]...]]... SCENE...
 //
-// Without --chain: the default builder's tree. `to first` is the rate relative to that of the first chain. If a
-// chain names a form, a line reports how fast it encodes: in million nodes of the given tree per second, and in
-// microseconds per triangle. Parameters are the options of bvh-compress:
+// Without --chain: the default builder's tree. `to first` is the rate relative to that of the first chain. If
+// a chain names a form, a line reports how fast it encodes: in million nodes of the given tree per second,
+// and in microseconds per triangle. Parameters are the options of bvh-compress:
 //
 //     trace_bench --chain binned --chain binned@quantized --chain binned@quantized:record-bytes=8 SCENE...
 //     trace_bench --chain binned@mvh:mvh-build=paper --chain binned@mvh SCENE...
 //
-// By default, trees are built with an intersection cost of 0.25: four triangles are tested at a time, so leaves
-// of up to four cost little more than leaves of one. The default of bvh-build is 1, the field's convention for
-// comparing costs.
+// By default, trees are built with an intersection cost of 0.25: four triangles are tested at a time, so
+// leaves of up to four cost little more than leaves of one. The default of bvh-build is 1, the field's
+// convention for comparing costs.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

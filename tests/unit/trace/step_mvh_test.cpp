@@ -61,8 +61,8 @@ class MvhStepTest : public testing::Test {
     Random random_{1};
 };
 
-// Steps of two levels in four lanes must find, bit for bit, the same as boxes that are computed node by node: a
-// plane that differs in one bit loses hits.
+// Steps of two levels in four lanes must find, bit for bit, the same as boxes that are computed node by node:
+// a plane that differs in one bit loses hits.
 TEST_F(MvhStepTest, findsTheSameAsBoxesNodeByNode) {
     size_t steps = 0, entered = 0;
     while (steps < 20000) {

@@ -52,40 +52,47 @@ HWY_NOINLINE void traverseTlas(const TlasStepper<Tlas>& tlas,
     traverseFrom(tlas, root, ray, query, metrics, visitLeaf);
 }
 
-/// Walks through a BLAS with a ray that is prepared for it. Returns whether the query is done. The query is
+/// Walks through BLASes with a ray that is prepared for them. Returns whether the query is done. The query is
 /// always an InstanceQuery, also for trees that are not instances, so that both share their loops.
 template <class Blases, class Source, class Query, class Metrics>
-HWY_NOINLINE bool traverseBlas(const Blases& blases, PrimitiveRange leaf, const RootEntry& entry,
-                               const typename BlasStepper<Blases>::Ray& blasRay, const Source& source,
-                               const PreparedRay& ray, InstanceQuery<Query>& query, Metrics& metrics) {
-    using Tree = BlasStepper<Blases>;
-    const Tree tree(blases, leaf);
-    return traverseFrom(
-        tree, tree.root(entry, blasRay, metrics), blasRay, query, metrics,
-        TestTriangles<Tree, Source, InstanceQuery<Query>, Metrics>{tree, source, ray, query, metrics});
-}
+struct TraverseBlas {
+    const Blases& blases;
+    const typename BlasStepper<Blases>::Ray& blasRay;
+    const Source& source;
+    const PreparedRay& ray;
+    InstanceQuery<Query>& query;
+    Metrics& metrics;
+
+    HWY_NOINLINE bool operator()(PrimitiveRange leaf, const RootEntry& entry) const {
+        using Tree = BlasStepper<Blases>;
+        const Tree tree(blases, leaf);
+        return traverseFrom(
+            tree, tree.root(entry, blasRay, metrics), blasRay, query, metrics,
+            TestTriangles<Tree, Source, InstanceQuery<Query>, Metrics>{tree, source, ray, query, metrics});
+    }
+};
 
 /// Traverses a tree over the primitives of a plain scene, in two levels.
 template <class Tlas, class Blases, class Source, class Query, class Metrics>
 HWY_INLINE void traverseLevels(const Tlas& tlas, const Blases& blases, const Source& source,
                                const PreparedRay& ray, Query& query, Metrics& metrics) {
     using Top = TlasStepper<Tlas>;
+    using BlasRay = typename BlasStepper<Blases>::Ray;
     const Top top(tlas);
     const typename Top::Ray topRay = top.prepare(ray);
     Entered<typename Top::Cursor> root;
     if (!top.enterRoot(topRay, query.boxLimit(), root, metrics)) return;
     MetricsBehind<Metrics> behind{metrics, tlas.form().nodeBytes()};
     InstanceQuery<Query> within(query, -std::numeric_limits<float>::infinity(), 0);
-    const auto below = [&](const typename BlasStepper<Blases>::Ray& blasRay) HWY_ATTR {
-        const auto visitLeaf = [&](PrimitiveRange leaf, const RootEntry& entry) HWY_ATTR {
-            return traverseBlas(blases, leaf, entry, blasRay, source, ray, within, behind);
-        };
-        traverseTlas<Tlas>(top, root, topRay, query, metrics, LeafVisitor(visitLeaf));
+    const auto traverse = [&](const BlasRay& blasRay) HWY_ATTR {
+        const TraverseBlas<Blases, Source, Query, MetricsBehind<Metrics>> below{blases, blasRay, source,
+                                                                                ray,    within,  behind};
+        traverseTlas<Tlas>(top, root, topRay, query, metrics, LeafVisitor(below));
     };
-    if constexpr (std::is_same_v<typename Top::Ray, typename BlasStepper<Blases>::Ray>)
-        below(topRay);
+    if constexpr (std::is_same_v<typename Top::Ray, BlasRay>)
+        traverse(topRay);
     else
-        below(BlasStepper<Blases>::prepare(ray, tlas.bounds()));
+        traverse(BlasStepper<Blases>::prepare(ray, tlas.bounds()));
 }
 
 /// Walks through the BLAS of an instance with the ray in the instance's space. Hits are defined in
@@ -117,8 +124,10 @@ HWY_NOINLINE bool traverseInstance(uint32_t number, const Blases& blases, const 
     }
     InstanceQuery<Query> within(query, inWorld.enter, entry.primitiveOffset);
     const typename BlasStepper<Blases>::Ray blasRay = BlasStepper<Blases>::prepare(local, box);
-    return traverseBlas(blases, leaf, RootEntry(local, box, inMesh.enter, query.boxLimit()), blasRay,
-                        source.of(local), local, within, metrics);
+    const Source localSource = source.of(local);
+    const TraverseBlas<Blases, Source, Query, Metrics> below{blases, blasRay, localSource,
+                                                             local,  within,  metrics};
+    return below(leaf, RootEntry(local, box, inMesh.enter, query.boxLimit()));
 }
 
 /// Traverses a top level over instances.

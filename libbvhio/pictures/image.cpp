@@ -2,8 +2,13 @@
 
 #include <png.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <new>
+#include <string>
+
+#include "core/error.h"
 
 namespace bvhio {
 namespace {
@@ -11,7 +16,7 @@ namespace {
 void append(png_structp png, png_bytep data, png_size_t size) {
     auto& bytes = *static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
     const auto* from = reinterpret_cast<const std::byte*>(data);
-    // libpng is C: an exception may not pass through it.
+    // libpng is C: an exception must not pass through it.
     try {
         bytes.insert(bytes.end(), from, from + size);
     } catch (const std::bad_alloc&) {
@@ -19,16 +24,26 @@ void append(png_structp png, png_bytep data, png_size_t size) {
     }
 }
 
+/// Keeps libpng's message. Its own handlers would print to standard error.
+[[noreturn]] void leave(png_structp png, png_const_charp message) {
+    auto& kept = *static_cast<std::array<char, 80>*>(png_get_error_ptr(png));
+    std::snprintf(kept.data(), kept.size(), "%s", message);
+    png_longjmp(png, 1);
+}
+void ignore(png_structp, png_const_charp) {}
+
 }  // namespace
 
+// libpng's simplified API is shorter, but it does not let the caller choose the row filter, and so the bytes.
 std::vector<std::byte> encodePng(const Image& image) {
     std::vector<std::byte> bytes;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    std::array<char, 80> message{"out of memory"};
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, leave, ignore);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
-    // Writing to memory can only fail for lack of memory.
     if (!info || setjmp(png_jmpbuf(png))) {
         png_destroy_write_struct(&png, &info);
-        throw std::bad_alloc();
+        throw Error(ErrorKind::resources,
+                    std::string("the picture cannot be written as PNG: ") + message.data());
     }
     png_set_write_fn(png, &bytes, append, [](png_structp) {});
     png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,

@@ -23,7 +23,9 @@ struct Image {
 };
 
 /// Returns the PNG file of a picture of at least one pixel. Equal pixels and the same version of zlib give
-/// the same bytes: the row filter and the compression level are fixed, and no time is stored.
+/// the same bytes: the row filter and the compression level are fixed, and no time is stored. Throws
+/// Error{resources} with libpng's reason when memory runs out or a side has more than a million pixels.
+/// Prints nothing.
 std::vector<std::byte> encodePng(const Image& image);
 
 /// Converts a colour in linear light to an sRGB pixel. Components outside [0, 1] are clamped.

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <string>
 
+#include "core/error.h"
+
 namespace bvhio {
 namespace {
 
@@ -35,6 +37,19 @@ TEST(Png, decodesToTheSamePixels) {
         EXPECT_EQ(back.height, height);
         EXPECT_EQ(back.pixels, image.pixels);
     }
+}
+
+// Fails if libpng prints its own lines beside the error that is thrown.
+TEST(Png, failsWithoutPrinting) {
+    testing::internal::CaptureStderr();
+    try {
+        encodePng(Image(1'000'001, 1));  // more than libpng writes
+        ADD_FAILURE() << "no error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::resources);
+        EXPECT_NE(std::string(error.what()).find("cannot be written as PNG"), std::string::npos);
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(Png, holdsNoTimeAndRepeats) {

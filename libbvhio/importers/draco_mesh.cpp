@@ -1,7 +1,7 @@
-// Encoding is Draco's sequential method: it alone keeps the order of vertices and triangles, which hit files
-// and the BVH's primitive ids rely on. Decoding reads every method, through subclasses of Draco's decoders
-// that compare the counts in the data with its size before Draco allocates for them: Draco itself believes
-// the number of points of a sequential mesh and the number of faces of an edgebreaker mesh.
+// Encoding uses Draco's sequential method: only that one keeps the order of vertices and triangles, which hit
+// files and the BVH's primitive ids rely on. Decoding reads every method, through subclasses of Draco's
+// decoders that compare the counts in the data with its size before Draco allocates memory for them: Draco
+// itself trusts the number of points of a sequential mesh and the number of faces of an edgebreaker mesh.
 #include "importers/draco_mesh.h"
 
 #include <draco/compression/expert_encode.h>
@@ -15,17 +15,18 @@
 
 #include "core/aabb.h"
 #include "core/error.h"
+#include "core/plural.h"
 
 namespace bvhio {
 
 namespace {
 
-// Entropy coding can make a regular mesh much smaller than a bit per face, so no exact bound exists. Of the
-// meshes tried, the densest was a flat grid of 2 million equal triangles at Draco's slowest speed: 40 faces
-// and 20 points per byte.
+// Entropy coding can make a regular mesh much smaller than a bit per face, so there is no exact bound. The
+// densest mesh that was tried, a flat grid of 2 million equal triangles at Draco's slowest speed, has 40
+// faces and 20 points per byte.
 constexpr uint64_t kMaxFacesPerByte = 64;
 constexpr uint64_t kMaxPointsPerByte = 64;
-constexpr uint64_t kFreeCount = 4096;                 // small meshes need no suspicion
+constexpr uint64_t kFreeCount = 4096;                 // small meshes are harmless
 constexpr uint64_t kMaxAttributeBytesPerPoint = 256;  // all attributes of a point together, as decoded
 
 bool plausible(uint64_t count, uint64_t perByte, int64_t bytesLeft) {
@@ -53,7 +54,7 @@ bool readCounts(const draco::MeshEdgebreakerDecoder&, draco::DecoderBuffer buffe
     return readCount(buffer, version, points) && readCount(buffer, version, faces);
 }
 
-/// One of Draco's mesh decoders, made to look before it allocates.
+/// One of Draco's mesh decoders, with checks before it allocates.
 template <class Base>
 class BoundedDecoder : public Base {
   protected:
@@ -79,13 +80,13 @@ draco::Status decodeInto(draco::Mesh& mesh, std::span<const std::byte> bytes) {
     draco::DracoHeader header;
     DRACO_RETURN_IF_ERROR(draco::PointCloudDecoder::DecodeHeader(&headerBuffer, &header))
     if (header.encoder_type != draco::TRIANGULAR_MESH)
-        return {draco::Status::DRACO_ERROR, "It holds points, not triangles."};
+        return {draco::Status::DRACO_ERROR, "it holds points, not triangles"};
     const draco::DecoderOptions options;
     if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING)
         return BoundedDecoder<draco::MeshSequentialDecoder>().Decode(options, &buffer, &mesh);
     if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING)
         return BoundedDecoder<draco::MeshEdgebreakerDecoder>().Decode(options, &buffer, &mesh);
-    return {draco::Status::DRACO_ERROR, "Its encoding method is not known."};
+    return {draco::Status::DRACO_ERROR, "its encoding method is not known"};
 }
 
 std::vector<std::byte> encode(const draco::Mesh& mesh, int positionBits, bool compressed) {
@@ -116,7 +117,7 @@ std::vector<std::byte> encodeDraco(std::span<const Vec3> vertices, std::span<con
     for (const Vec3& v : vertices) bounds.extend(v);
     if (!isFinite(bounds.extent()))
         throw Error(ErrorKind::unsupported,
-                    "the scene is too wide for Draco's quantisation: store its geometry raw");
+                    "the scene is too large for Draco's quantisation: store the geometry raw");
 
     draco::Mesh mesh;
     mesh.set_num_points(uint32_t(vertices.size()));
@@ -132,8 +133,8 @@ std::vector<std::byte> encodeDraco(std::span<const Vec3> vertices, std::span<con
     }
 
     std::vector<std::byte> bytes = encode(mesh, positionBits, true);
-    // Draco refuses to decode indices below three bytes per triangle: a mesh that compresses so well
-    // (thousands of equal triangles) is stored without entropy coding.
+    // Draco refuses to decode indices of less than three bytes per triangle, so a mesh that compresses better
+    // than that (thousands of equal triangles) is stored without entropy coding.
     const size_t header = 32;
     if (bytes.size() < header + 3 * triangles.size()) bytes = encode(mesh, positionBits, false);
     return bytes;
@@ -171,7 +172,7 @@ DracoMesh decodeDraco(std::span<const std::byte> bytes, const std::string& where
                 throw Error(ErrorKind::invalid, where + ": triangle " + std::to_string(i) +
                                                     " of the Draco data uses vertex " +
                                                     std::to_string(corner.value()) + ", but it has only " +
-                                                    std::to_string(mesh.num_points()));
+                                                    counted(mesh.num_points(), "vertex", "vertices"));
         result.triangles[i] = {face[0].value(), face[1].value(), face[2].value()};
     }
     return result;

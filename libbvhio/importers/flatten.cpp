@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/plural.h"
 #include "importers/import.h"
 
 namespace bvhio {
@@ -14,8 +15,8 @@ constexpr uint64_t kMaxVertices = std::numeric_limits<uint32_t>::max();
 constexpr size_t kGrain = 1 << 15;
 constexpr uint64_t kNone = std::numeric_limits<uint64_t>::max();
 
-/// Keeps the smallest number given to it from any thread, so that messages name the same vertex for any
-/// thread count.
+/// Keeps the smallest number that any thread offers, so that messages name the same vertex for any number of
+/// threads.
 class First {
   public:
     void offer(uint64_t number) {
@@ -33,8 +34,8 @@ std::string describe(const Mesh& mesh, uint32_t number) {
     return "mesh " + std::to_string(number) + (mesh.name.empty() ? "" : " '" + mesh.name + "'");
 }
 
-/// Checks the mesh's indices and the vertices that they use, and takes out the vertices that nothing uses:
-/// scans keep those whose measurement failed, as NaN.
+/// Checks the mesh's indices and the vertices that they use, and removes the vertices that nothing uses:
+/// scanned files keep failed measurements as NaN there.
 void checkAndCompact(Mesh& mesh, uint32_t number) {
     First badTriangle;
     const size_t vertexCount = mesh.vertices.size();
@@ -50,8 +51,8 @@ void checkAndCompact(Mesh& mesh, uint32_t number) {
         const uint32_t index = t.v0 >= vertexCount ? t.v0 : t.v1 >= vertexCount ? t.v1 : t.v2;
         throw Error(ErrorKind::invalid, describe(mesh, number) + ": triangle " +
                                             std::to_string(badTriangle.get()) + " uses vertex " +
-                                            std::to_string(index) + ", but there are only " +
-                                            std::to_string(vertexCount));
+                                            std::to_string(index) + ", but the mesh has only " +
+                                            counted(vertexCount, "vertex", "vertices"));
     }
 
     std::vector<uint8_t> used(vertexCount, 0);
@@ -89,6 +90,20 @@ struct Placement {
     uint64_t firstVertex = 0, firstTriangle = 0;
 };
 
+/// A scene without triangles is refused, with what it has instead.
+void refuseWithoutTriangles(const ImportedScene& imported) {
+    bool hasVertices = false;
+    for (const Instance& instance : imported.instances) {
+        const Mesh& mesh = imported.meshes[instance.mesh];
+        if (!mesh.triangles.empty()) return;
+        hasVertices |= !mesh.vertices.empty();
+    }
+    const char* instead = imported.leftOut.points + imported.leftOut.lines > 0 ? ", only points or lines"
+                          : hasVertices                                        ? ", only vertices"
+                                                                               : "";
+    throw Error(ErrorKind::invalid, std::string("the scene has no triangles") + instead);
+}
+
 std::vector<Placement> planPlacements(const ImportedScene& imported, uint64_t& vertexCount,
                                       uint64_t& triangleCount) {
     std::vector<Placement> placements;
@@ -103,7 +118,6 @@ std::vector<Placement> planPlacements(const ImportedScene& imported, uint64_t& v
                                                     " triangles or " + std::to_string(kMaxVertices) +
                                                     " vertices");
     }
-    if (triangleCount == 0) throw Error(ErrorKind::invalid, "the scene has no triangles");
     return placements;
 }
 
@@ -159,7 +173,7 @@ std::vector<uint32_t> findDegenerate(const Scene& scene) {
     return all;
 }
 
-/// Takes out the given triangles, and remembers which numbers the others had in their geometries.
+/// Removes the given triangles, and records which numbers the others had in their geometries.
 void dropTriangles(Scene& scene, const std::vector<uint32_t>& dropped) {
     const size_t kept = scene.triangles.size() - dropped.size();
     if (kept == 0) throw Error(ErrorKind::invalid, "every triangle of the scene has zero area");
@@ -193,7 +207,7 @@ void treatDegenerate(Scene& scene, OnDegenerate choice) {
     if (choice == OnDegenerate::drop) return dropTriangles(scene, degenerate);
     const Scene::PrimitiveId id = scene.primitiveId(degenerate.front());
     throw Error(ErrorKind::invalid,
-                std::to_string(degenerate.size()) + " triangles have zero area; the first is triangle " +
+                counted(degenerate.size(), "triangle") + " of zero area; the first is triangle " +
                     std::to_string(id.primitive) + " of geometry " + std::to_string(id.geometry) + " '" +
                     scene.geometries[id.geometry].name + "': use --on-degenerate keep or drop");
 }
@@ -201,6 +215,7 @@ void treatDegenerate(Scene& scene, OnDegenerate choice) {
 }  // namespace
 
 Scene flatten(ImportedScene imported, const ImportOptions& options) {
+    refuseWithoutTriangles(imported);
     for (size_t i = 0; i < imported.meshes.size(); ++i) checkAndCompact(imported.meshes[i], uint32_t(i));
     uint64_t vertexCount = 0, triangleCount = 0;
     const std::vector<Placement> placements = planPlacements(imported, vertexCount, triangleCount);
@@ -214,7 +229,7 @@ Scene flatten(ImportedScene imported, const ImportOptions& options) {
                                     uint32_t(placements[i].firstTriangle), uint32_t(mesh.triangles.size())});
     }
     if (imported.instances.size() == 1 && imported.instances[0].transform == kIdentityTransform) {
-        // One mesh where it stands, as all files but glTF have it: nothing is copied.
+        // A single mesh in its own place, as in all files but glTF: nothing is copied.
         Mesh& mesh = imported.meshes[imported.instances[0].mesh];
         for (Vec3& v : mesh.vertices) v = v + Vec3{};  // -0 + 0 is +0
         scene.vertices = std::move(mesh.vertices);

@@ -86,7 +86,7 @@ struct GltfAccessors::Elements {
     void load(const std::byte* at, float* numbers) const {
         for (int c = 0; c < components; ++c) {
             const float number = loadNumber(at + size_t(c) * componentBytes(componentType), componentType);
-            // The most negative integer stands for -1 too.
+            // The most negative integer means -1 too.
             numbers[c] = divisor == 0 ? number : std::max(number / divisor, -1.0f);
         }
     }
@@ -129,7 +129,7 @@ GltfAccessors::Elements GltfAccessors::elements(int accessor, int components) {
     const tinygltf::Accessor& source = find(accessor);
     const size_t size = componentBytes(source.componentType) * size_t(components);
     if (componentsOf(source.type) != components || size == 0)
-        throw Error(ErrorKind::invalid, where(accessor) + ": its type is not allowed for what uses it");
+        throw Error(ErrorKind::invalid, where(accessor) + ": its type is not allowed for this attribute");
     Elements result{{}, size, source.count, source.componentType, components, normalisation(accessor)};
     if (source.bufferView >= 0) {
         result.data = buffers_.view(source.bufferView);

@@ -22,13 +22,13 @@ class GltfAccessors {
     /// Elements of `components` numbers each, one after the other; integers divided by their maximum where
     /// the accessor is normalised.
     std::vector<float> readNumbers(int accessor, int components);
-    /// Three-component elements: all of them, or those of the given ascending numbers, each less than the
+    /// Three-component elements: all of them, or those with the given ascending numbers, each less than the
     /// count.
     std::vector<Vec3> readVectors(int accessor);
     std::vector<Vec3> readVectors(int accessor, std::span<const uint32_t> elements);
     /// Scalars of an unsigned integer type.
     std::vector<uint32_t> readIndices(int accessor);
-    /// What normalised integers of this accessor are divided by, or 0 for an accessor that is not normalised.
+    /// The divisor of the accessor's normalised integers, or 0 for an accessor that is not normalised.
     float normalisation(int accessor) const;
 
   private:

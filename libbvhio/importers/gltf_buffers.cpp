@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint64_t kFreeBytes = 16 << 20;
 constexpr uint64_t kMaxGrowth = 64;
-constexpr uint64_t kMaxDecodes = 8;  // on average over the file: once is what useful files need
+constexpr uint64_t kMaxDecodes = 8;  // on average over the file; useful files need one
 // meshoptimizer's vertex codec spends at least 4 bytes on 256 bytes of vertices, its index codecs a byte per
 // triangle or index.
 constexpr uint64_t kMaxMeshoptGrowth = 64;
@@ -71,7 +71,7 @@ void GltfBuffers::spend(uint64_t bytes) {
 void GltfBuffers::spendCompressed(uint64_t bytes) {
     decodedBytes_ += bytes;
     if (decodedBytes_ > kMaxDecodes * sourceBytes_)
-        throw Error(ErrorKind::resources, name() + ": the file has its Draco data decoded more than " +
+        throw Error(ErrorKind::resources, name() + ": the file uses the same Draco data more than " +
                                               std::to_string(kMaxDecodes) + " times");
 }
 
@@ -80,7 +80,7 @@ AlignedVector<std::byte> GltfBuffers::load(const GltfBufferSource& source, const
     if (tinygltf::IsDataURI(uri)) {
         std::vector<unsigned char> data;
         std::string mimeType;
-        if (!tinygltf::DecodeDataURI(&data, mimeType, uri, 0, false)) fail(where, "the data URI is damaged");
+        if (!tinygltf::DecodeDataURI(&data, mimeType, uri, 0, false)) fail(where, "its data URI is damaged");
         const auto* begin = reinterpret_cast<const std::byte*>(data.data());
         return {begin, begin + data.size()};
     }
@@ -88,8 +88,12 @@ AlignedVector<std::byte> GltfBuffers::load(const GltfBufferSource& source, const
     const bool escapes = path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
     if (path.empty() || escapes || uri.find(':') != std::string::npos ||
         path.native().find('\0') != std::string::npos)
-        fail(where, "the URI is not a file beside the scene or below");
-    return readFile(directory_ / path);
+        fail(where, "its URI must name a file in the scene's folder or below");
+    try {
+        return readFile(directory_ / path);
+    } catch (const Error& error) {
+        throw Error(error.kind(), where + ": " + error.what());
+    }
 }
 
 std::span<const std::byte> GltfBuffers::buffer(size_t number) {
@@ -104,7 +108,7 @@ std::span<const std::byte> GltfBuffers::buffer(size_t number) {
         }
         bytes = buffers_[number];
     } else if (number != 0 || bytes.empty()) {
-        fail(where, "it has no URI, and the file no binary chunk for it");
+        fail(where, "it has no URI, and the file has no binary chunk for it");
     }
     if (source.byteLength > bytes.size())
         fail(where, "it has " + std::to_string(bytes.size()) + " of " + std::to_string(source.byteLength) +

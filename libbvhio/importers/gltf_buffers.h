@@ -13,7 +13,7 @@
 
 namespace bvhio {
 
-/// Reads buffers when they are first needed: those that only textures use are never opened.
+/// Reads buffers when they are first needed: buffers that only textures use are never opened.
 class GltfBuffers {
   public:
     /// `fileBytes` is the size of the glTF file itself.
@@ -27,13 +27,13 @@ class GltfBuffers {
     /// when it lies outside its buffer, io when the buffer cannot be read.
     std::span<const std::byte> view(int bufferView);
 
-    /// Counts memory that the file makes the reader allocate. Throws Error resources when it is out of
-    /// proportion to the file and its buffers: the largest proportion that a useful file needs is 16
+    /// Counts memory that the file makes the reader allocate. Throws Error resources when that is out of
+    /// proportion to the size of the file and its buffers: a useful file needs at most 16 times that size
     /// (triangle strips with indices of one byte).
     void spend(uint64_t bytes);
 
-    /// Counts bytes that Draco decodes, which bounds itself what a byte may become. Throws Error resources
-    /// when the file has the same bytes decoded again and again.
+    /// Counts bytes that Draco decodes; decodeDraco bounds what each byte may become. Throws Error resources
+    /// when the file uses the same bytes again and again.
     void spendCompressed(uint64_t bytes);
 
     const std::string& name() const { return document_.name; }

@@ -1,7 +1,7 @@
-// tinygltf 2.7 turns the JSON into structures, but is shown only the part that makes geometry, and that
-// checked. Left alone it drops a primitive or a list of children that it cannot read without a word, refuses
-// primitives with Draco or sparse indices (their accessors have no buffer view), copies every buffer, reads
-// every image, and goes into nested `extras` as deep as they go.
+// tinygltf 2.7 turns the JSON into structures, but gets only the part that makes geometry, already checked.
+// By itself it silently drops a primitive or a list of children that it cannot read, refuses primitives with
+// Draco or sparse indices (their accessors have no buffer view), copies every buffer, reads every image, and
+// recurses into nested `extras` without a limit.
 #include <fstream>  // tinygltf's header uses it without including it
 
 #define TINYGLTF_IMPLEMENTATION
@@ -26,6 +26,11 @@ constexpr uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
     throw Error(ErrorKind::invalid, name + ": " + what);
 }
 
+[[noreturn]] void refuseVersion(const std::string& name, const std::string& version) {
+    throw Error(ErrorKind::unsupported, name + ": the file is glTF " + version +
+                                            ": convert it to glTF 2.0, the version that is read");
+}
+
 /// Splits a GLB into its JSON, which is returned, and its binary chunk.
 std::span<const std::byte> splitGlb(std::span<const std::byte> bytes, GltfDocument& document) {
     const auto word = [&](size_t at) {
@@ -34,9 +39,7 @@ std::span<const std::byte> splitGlb(std::span<const std::byte> bytes, GltfDocume
         return value;
     };
     if (bytes.size() < 20) fail(document.name, "the GLB file is shorter than its headers");
-    if (word(4) != 2)
-        throw Error(ErrorKind::unsupported, document.name + ": the file is GLB version " +
-                                                std::to_string(word(4)) + ", but only version 2 can be read");
+    if (word(4) != 2) refuseVersion(document.name, word(4) == 1 ? "1.0" : std::to_string(word(4)));
     if (word(8) > bytes.size())
         fail(document.name, "the GLB file is cut short: it has " + std::to_string(bytes.size()) + " of " +
                                 std::to_string(word(8)) + " bytes");
@@ -59,7 +62,8 @@ std::span<const std::byte> splitGlb(std::span<const std::byte> bytes, GltfDocume
 Json parse(std::span<const std::byte> text, const std::string& name) {
     const auto* begin = reinterpret_cast<const char*>(text.data());
     const auto bound = [&](int depth, Json::parse_event_t, Json&) {
-        if (depth > kMaxJsonDepth) fail(name, "the JSON is nested too deep");
+        if (depth > kMaxJsonDepth)
+            fail(name, "the JSON is nested more than " + std::to_string(kMaxJsonDepth) + " levels deep");
         return true;
     };
     try {
@@ -103,7 +107,7 @@ bool hasType(const Json& value, Type type) {
     return false;
 }
 
-/// Checks an object's members and takes out those that are not listed.
+/// Checks an object's members and removes those that are not listed.
 void keepMembers(Json& object, std::initializer_list<Member> members, const std::string& where,
                  const std::string& name) {
     static constexpr const char* kTypeNames[] = {
@@ -136,6 +140,8 @@ void keepExtension(Json& object, const char* extension) {
 }
 
 void reducePrimitive(Json& primitive, const std::string& where, const std::string& name) {
+    const Json& list = primitive.is_object() ? primitive.value("targets", Json()) : Json();
+    const size_t targets = list.is_array() ? list.size() : 0;
     keepMembers(primitive,
                 {{"attributes", Type::object, true},
                  {"indices", Type::index},
@@ -148,6 +154,7 @@ void reducePrimitive(Json& primitive, const std::string& where, const std::strin
         primitive["attributes"][kIndicesKey] = *indices;
         primitive.erase(indices);
     }
+    if (targets > 0) primitive["attributes"][kTargetsKey] = targets;
 }
 
 /// Calls visit(element, "node 3") for each element of a list that the document may have.
@@ -166,9 +173,13 @@ void reduce(Json& json, const std::string& name) {
         keepMembers(scene, {{"nodes", Type::indices}}, where, name);
     });
     forEach(json, "nodes", "node", name, [&](Json& node, const std::string& where) {
+        for (const char* key : {"skin", "camera"})  // these are only counted: damage there is harmless
+            if (node.is_object() && node.contains(key) && !isIndex(node[key])) node.erase(key);
         keepMembers(node,
                     {{"children", Type::indices},
                      {"mesh", Type::index},
+                     {"skin", Type::index},
+                     {"camera", Type::index},
                      {"matrix", Type::numbers},
                      {"rotation", Type::numbers},
                      {"scale", Type::numbers},
@@ -230,7 +241,7 @@ void reduce(Json& json, const std::string& name) {
 }
 
 void checkRequiredExtensions(const Json& json, const std::string& name) {
-    // Those that change no triangle, or that are read.
+    // Extensions that are read, and those that change no triangle.
     static constexpr std::string_view kKnown[] = {
         "KHR_draco_mesh_compression",
         "KHR_mesh_quantization",
@@ -258,10 +269,20 @@ void checkRequiredExtensions(const Json& json, const std::string& name) {
         if (extension.starts_with("KHR_materials_")) continue;
         if (std::find(std::begin(kKnown), std::end(kKnown), extension) == std::end(kKnown))
             throw Error(ErrorKind::unsupported,
-                        name + ": the file needs the extension " +
+                        name + ": the file requires the extension " +
                             Json(extension).dump(-1, ' ', true, Json::error_handler_t::replace) +
-                            ", which is not supported");
+                            ", which is not supported: export the scene without it");
     }
+}
+
+void checkVersion(const Json& json, const std::string& name) {
+    const Json version = json.value("/asset/version"_json_pointer, Json());
+    if (version.is_string() && version.get_ref<const std::string&>().starts_with("2.")) return;
+    if (version.is_string()) refuseVersion(name, version.get<std::string>());
+    // Version 1.0 has objects where 2.0 has lists, and need not say its version.
+    for (const char* key : {"nodes", "meshes", "accessors"})
+        if (json.contains(key) && json[key].is_object()) refuseVersion(name, "1.0");
+    fail(name, "the glTF file has no 'asset' with a 'version'");
 }
 
 std::vector<GltfBufferSource> takeBuffers(Json& json, const std::string& name) {
@@ -288,10 +309,7 @@ GltfDocument readGltfDocument(std::span<const std::byte> bytes, const std::strin
     {
         Json json = parse(text, name);
         if (!json.is_object()) fail(name, "the JSON is not an object");
-        const Json& version = json.value("/asset/version"_json_pointer, Json());
-        if (!version.is_string()) fail(name, "the glTF file has no version");
-        if (!version.get_ref<const std::string&>().starts_with("2."))
-            throw Error(ErrorKind::unsupported, name + ": only glTF version 2 can be read");
+        checkVersion(json, name);
         checkRequiredExtensions(json, name);
         document.buffers = takeBuffers(json, name);
         reduce(json, name);
@@ -307,8 +325,8 @@ GltfDocument readGltfDocument(std::span<const std::byte> bytes, const std::strin
     }
     return document;
 } catch (const Json::exception&) {
-    // Such as a number that no double holds, or a list where an object should be.
-    fail(name, "the JSON is not as glTF needs it");
+    // For example a number that no double holds, or a list instead of an object.
+    fail(name, "the JSON does not have the structure of glTF");
 }
 
 }  // namespace bvhio

@@ -13,13 +13,13 @@
 
 namespace bvhio {
 
-/// Where the bytes of a glTF buffer are: at a URI, or in the GLB's binary chunk when it has none.
+/// Where the bytes of a glTF buffer are: at a URI, or in the GLB's binary chunk when there is no URI.
 struct GltfBufferSource {
     std::optional<std::string> uri;
     size_t byteLength = 0;
 };
 
-/// What makes geometry in a glTF file: nodes, meshes, accessors, buffer views and extensions.
+/// The parts of a glTF file that make geometry: nodes, meshes, accessors, buffer views and extensions.
 struct GltfDocument {
     std::string name;  // the file's, for messages
     tinygltf::Model model;
@@ -27,8 +27,9 @@ struct GltfDocument {
     std::span<const std::byte> binaryChunk;
 };
 
-/// Where GltfDocument keeps a primitive's index accessor, among its attributes.
+/// Where GltfDocument keeps a primitive's index accessor, and its number of morph targets: as attributes.
 inline constexpr const char* kIndicesKey = "indices";
+inline constexpr const char* kTargetsKey = "targets";
 
 /// Reads glTF text or GLB. Throws Error: invalid for damaged or wrongly typed JSON, unsupported for a
 /// required extension that is not known and for versions other than 2.

@@ -71,8 +71,11 @@ class SceneReader {
             const tinygltf::Node& node = document_.model.nodes[size_t(visit.node)];
             const Transform world = multiply(visit.parent, localTransform(node, visit.node));
             if (node.mesh >= 0) addNode(node, visit.node, world);
+            scene_.leftOut.skins += node.mesh >= 0 && node.skin >= 0;
+            scene_.leftOut.cameras += node.camera >= 0;
             for (const int child : reversed(node.children)) stack.push_back({child, world});
         }
+        scene_.leftOut.unusedMeshes = document_.model.meshes.size() - parts_.size();
         return std::move(scene_);
     }
 
@@ -96,7 +99,7 @@ class SceneReader {
                 fail("the default scene, " + std::to_string(scene) + ", does not exist");
             return model.scenes[size_t(scene)].nodes;
         }
-        // A library of nodes without a scene: all of them, each from its root.
+        // The file has nodes but no scene: all of them are read, each tree from its root.
         std::vector<bool> isChild(model.nodes.size(), false);
         for (const tinygltf::Node& node : model.nodes)
             for (const int child : node.children)
@@ -105,7 +108,7 @@ class SceneReader {
         for (size_t i = 0; i < isChild.size(); ++i)
             if (!isChild[i]) roots.push_back(int(i));
         if (roots.empty() && !model.nodes.empty())
-            fail("every node is another's child: the nodes form a cycle");
+            fail("every node is the child of another: the nodes form a cycle");
         return roots;
     }
 
@@ -130,7 +133,7 @@ class SceneReader {
                        part(node.scale, {1, 1, 1}, "scale").data());
     }
 
-    /// The places of a node's mesh: one, or those of EXT_mesh_gpu_instancing.
+    /// The places of a node's mesh: its own, or those of EXT_mesh_gpu_instancing.
     std::vector<Transform> placements(const tinygltf::Node& node, int number, const Transform& world) {
         const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
         if (extension == node.extensions.end()) return {world};
@@ -139,7 +142,7 @@ class SceneReader {
         if (!attributes.IsObject() || attributes.Size() == 0) fail(where + "has no attributes");
         const auto countOf = [&](const std::string& key) {
             const tinygltf::Value& accessor = attributes.Get(key);
-            if (!accessor.IsInt()) fail(where + "has a " + key + " that is no accessor");
+            if (!accessor.IsInt()) fail(where + "has a " + key + " that is not an accessor");
             return accessors_.count(accessor.Get<int>());
         };
         std::optional<size_t> common;
@@ -149,7 +152,7 @@ class SceneReader {
             if (common && elements != *common) fail(where + "has attributes of different lengths");
             common = elements;
         }
-        // Without those, one that is the application's own tells how many instances there are.
+        // Without those, an attribute of the application's own has the number of instances.
         if (!common) common = countOf(attributes.Keys().front());
         const size_t count = *common;
         const auto read = [&](const char* key, int components) -> std::vector<float> {
@@ -175,7 +178,7 @@ class SceneReader {
         std::string name;
     };
 
-    /// The parts of a glTF mesh; read when the first node uses it.
+    /// The parts of a glTF mesh. They are read when the first node uses the mesh.
     const std::vector<Part>& partsOf(int mesh, int node) {
         const auto [known, isNew] = parts_.try_emplace(mesh);
         if (!isNew) return known->second;
@@ -189,23 +192,39 @@ class SceneReader {
                                       "', primitive " + std::to_string(i);
             known->second.push_back({importPrimitive(source.primitives[i], name, where), name});
         }
+        countLeftOut(source);
         return known->second;
     }
 
-    /// Imports a primitive, or finds the one with the same data: meshes that differ only in material are
-    /// common.
+    void countLeftOut(const tinygltf::Mesh& mesh) {
+        uint64_t targets = 0;  // all primitives of a mesh have the same
+        for (const tinygltf::Primitive& primitive : mesh.primitives) {
+            const bool hasPositions = primitive.attributes.contains("POSITION");
+            scene_.leftOut.withoutPositions += !hasPositions;
+            scene_.leftOut.points += hasPositions && primitive.mode == TINYGLTF_MODE_POINTS;
+            scene_.leftOut.lines += hasPositions && primitive.mode > TINYGLTF_MODE_POINTS &&
+                                    primitive.mode < TINYGLTF_MODE_TRIANGLES;
+            targets = std::max(targets, uint64_t(std::max(attributeOf(primitive, kTargetsKey), 0)));
+        }
+        scene_.leftOut.morphTargets += targets;
+    }
+
+    /// The number kept as an attribute of a primitive, or -1.
+    static int attributeOf(const tinygltf::Primitive& primitive, const char* key) {
+        const auto it = primitive.attributes.find(key);
+        return it == primitive.attributes.end() ? -1 : it->second;
+    }
+
+    /// Imports a primitive, or finds the one with the same data: files often have meshes that differ only in
+    /// their material.
     uint32_t importPrimitive(const tinygltf::Primitive& primitive, const std::string& name,
                              const std::string& where) {
-        const auto attribute = [&](const char* key) {
-            const auto it = primitive.attributes.find(key);
-            return it == primitive.attributes.end() ? -1 : it->second;
-        };
         const auto draco = primitive.extensions.find("KHR_draco_mesh_compression");
         int dracoView = -1;
         if (draco != primitive.extensions.end() && draco->second.Get("bufferView").IsInt())
             dracoView = draco->second.Get("bufferView").Get<int>();
-        const std::array<int, 4> data{attribute("POSITION"), attribute(kIndicesKey), primitive.mode,
-                                      dracoView};
+        const std::array<int, 4> data{attributeOf(primitive, "POSITION"), attributeOf(primitive, kIndicesKey),
+                                      primitive.mode, dracoView};
         const auto [known, isNew] = imported_.try_emplace(data, uint32_t(scene_.meshes.size()));
         if (isNew) scene_.meshes.push_back(readGltfPrimitive(primitive, name, where, accessors_, buffers_));
         return known->second;

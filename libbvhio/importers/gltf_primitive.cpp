@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/plural.h"
 #include "importers/draco_mesh.h"
 
 namespace bvhio {
@@ -58,8 +59,8 @@ void readVertices(int positions, const std::string& where, GltfAccessors& access
         const uint32_t highest = std::max({t.v0, t.v1, t.v2});
         if (highest >= count)
             throw Error(ErrorKind::invalid, where + ": triangle " + std::to_string(i) + " uses vertex " +
-                                                std::to_string(highest) + ", but there are only " +
-                                                std::to_string(count));
+                                                std::to_string(highest) + ", but the mesh has only " +
+                                                counted(count, "vertex", "vertices"));
     }
     if (count <= 4 * mesh.triangles.size()) {
         mesh.vertices = accessors.readVectors(positions);

@@ -8,9 +8,9 @@
 
 namespace bvhio {
 
-/// Reads a primitive of any mode, with KHR_draco_mesh_compression when it has it; points and lines give a
-/// mesh without vertices and triangles. A primitive that uses few of many shared vertices gets only those.
-/// `where` names it in messages. Throws Error invalid for damaged accessors and for indices out of range.
+/// Reads a primitive of any mode, also one with KHR_draco_mesh_compression. Points and lines give a mesh
+/// without vertices and triangles. A primitive that uses few of many shared vertices gets only those. `where`
+/// names the primitive in messages. Throws Error invalid for damaged accessors and for indices out of range.
 Mesh readGltfPrimitive(const tinygltf::Primitive& primitive, const std::string& meshName,
                        const std::string& where, GltfAccessors& accessors, GltfBuffers& buffers);
 

@@ -55,7 +55,7 @@ PlyHeader readPlyHeader(std::span<const std::byte> bytes, const std::string& nam
     const auto readType = [&]() -> PlyType {
         const std::string_view word = cursor.word();
         const std::optional<PlyType> type = typeNamed(word);
-        if (!type) fail("'" + std::string(word) + "' is no type");
+        if (!type) fail("'" + std::string(word) + "' is not a type");
         return *type;
     };
 
@@ -75,13 +75,13 @@ PlyHeader readPlyHeader(std::span<const std::byte> bytes, const std::string& nam
             } else if (format == "binary_big_endian") {
                 header.format = PlyFormat::bigEndian;
             } else {
-                fail("the format is not known");
+                fail("the format must be ascii, binary_little_endian or binary_big_endian");
             }
         } else if (keyword == "element") {
             PlyElement element;
             element.name = cursor.word();
             long long count = 0;
-            if (!cursor.integer(count) || count < 0) fail("the element has no count");
+            if (!cursor.integer(count) || count < 0) fail("the element does not have a count");
             element.count = uint64_t(count);
             header.elements.push_back(std::move(element));
         } else if (keyword == "property") {
@@ -100,18 +100,18 @@ PlyHeader readPlyHeader(std::span<const std::byte> bytes, const std::string& nam
     }
     if (!formatSeen) fail("the format is missing");
 
-    // The body begins behind exactly one line end: binary data may begin with bytes that look like another.
+    // The body begins after exactly one line end: binary data may begin with bytes that look like another.
     cursor.skipLine();
     header.size = cursor.offset();
     uint64_t bytesLeft = bytes.size() - header.size;
     for (const PlyElement& element : header.elements) {
-        // In text, a value takes at least a digit and a space, but for the last one of the file.
+        // In text, a value takes at least a digit and a space; the file's last value needs no space.
         const uint64_t each =
             header.format == PlyFormat::ascii ? 2 * element.properties.size() : uint64_t(element.minBytes());
         if (each > 0 && element.count > (bytesLeft + 1) / each)
             throw Error(ErrorKind::invalid, name + ": the header claims " + std::to_string(element.count) +
-                                                " of element '" + element.name +
-                                                "', more than the file holds: it is cut short or damaged");
+                                                " elements '" + element.name +
+                                                "', more than the file can hold: it is cut short or damaged");
         if (each == 0 && element.count > 0 && header.format != PlyFormat::ascii) continue;
         bytesLeft -= std::min(bytesLeft, element.count * each);
     }

@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements with which properties follow it, and how.
+// The header of a PLY file: which elements with which properties the body has, and in which format.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct PlyElement {
     uint64_t count = 0;
     std::vector<PlyProperty> properties;
 
-    /// Bytes of one element in binary, or the fewest where it holds lists.
+    /// Bytes of one element in binary; the fewest possible where it has lists.
     size_t minBytes() const;
     bool hasList() const;
     /// The index of a property, or -1.
@@ -41,8 +41,8 @@ struct PlyHeader {
     size_t size = 0;  // the body begins here
 };
 
-/// Throws Error invalid for a damaged header and for elements that are more than the bytes behind it can
-/// hold.
+/// Reads the header of a whole file. Throws Error invalid for a damaged header, and for a header that claims
+/// more elements than the bytes after it can hold.
 PlyHeader readPlyHeader(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace bvhio

@@ -18,7 +18,7 @@ AlignedVector<std::byte> readFile(const std::filesystem::path& path) {
     std::setvbuf(file.get(), nullptr, _IONBF, 0);
     std::error_code unknownSize;  // of a pipe, say
     const uintmax_t size = std::filesystem::file_size(path, unknownSize);
-    // One byte more than the file has, so that one read sees its end.
+    // One byte more than the file has, so that one read finds its end.
     AlignedVector<std::byte> bytes(unknownSize ? size_t(1) << 16 : size_t(size) + 1);
     for (size_t got = 0;;) {
         const size_t part = std::fread(bytes.data() + got, 1, bytes.size() - got, file.get());

@@ -1,4 +1,4 @@
-// Whole files into memory.
+// Reads whole files into memory.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace bvhio {
 
-/// Reads a file whole. Throws Error io when that fails, and for a directory.
+/// Returns all bytes of a file. Throws Error io for a file that cannot be read, and for a directory.
 AlignedVector<std::byte> readFile(const std::filesystem::path& path);
 
 }  // namespace bvhio

@@ -11,11 +11,12 @@ namespace bvhio {
 
 namespace {
 
-/// The most that a transform may magnify the rounding of a ray's direction, on any axis: 256 leave it 16
-/// bits, a small part of a pixel. Uniform scales, and scales along a mesh's own axes, magnify hardly at all.
+/// The most that a transform may magnify the rounding of a ray's direction on any axis. A factor of 256
+/// leaves 16 exact bits, a small part of a pixel. Uniform scales, and scales along a mesh's own axes, magnify
+/// hardly at all.
 constexpr double kMaxSkew = 256;
-/// The most that rays may grow or shrink: their numbers must not leave the floats, nor lose digits as
-/// denormals.
+/// The most that rays may grow or shrink: their coordinates must not leave the range of floats, nor lose
+/// digits as denormals.
 constexpr double kMaxScale = 0x1p40;
 constexpr uint32_t kNoMesh = 0xFFFFFFFF;
 
@@ -47,7 +48,7 @@ bool keepsRaysInRange(const WorldToObject& to) {
     return true;
 }
 
-/// The imported meshes of instances that stand together.
+/// The imported meshes of instances that stand together: the parts of one mesh.
 using Parts = std::vector<uint32_t>;
 
 class MeshSharer {
@@ -61,7 +62,7 @@ class MeshSharer {
         }
     }
 
-    /// The meshes, and the instances without the numbers of their primitives.
+    /// Fills in the meshes, and the instances without the numbers of their primitives.
     void share() {
         const std::vector<Instance>& all = imported_.instances;
         uint64_t geometry = 0;
@@ -123,7 +124,7 @@ class MeshSharer {
     std::map<Parts, uint32_t> known_;
 };
 
-/// Takes out meshes whose triangles were all dropped, with their geometries and instances.
+/// Removes meshes whose triangles were all dropped, with their geometries and instances.
 void leaveOutEmpty(Scene& scene) {
     std::vector<Geometry> geometries;
     std::vector<SceneMesh> meshes;

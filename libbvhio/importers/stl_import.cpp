@@ -64,7 +64,7 @@ void readText(std::span<const std::byte> bytes, Mesh& mesh) {
         }
     }
     if (inSolid && (!mesh.triangles.empty() || first != mesh.vertices.size()))
-        fail("the file ends within a solid");
+        fail("the file ends within a solid: it is cut short");
 }
 
 bool beginsWithSolid(std::span<const std::byte> bytes) {

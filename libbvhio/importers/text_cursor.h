@@ -31,19 +31,19 @@ class TextCursor {
         while (at_ != end_ && isSpace(*at_)) ++at_;
     }
     bool atLineEnd() const { return at_ == end_ || *at_ == '\n' || *at_ == '\r'; }
-    /// Skips what is left of the line, and its end.
+    /// Skips the rest of the line, and its end.
     void skipLine() {
         while (!atLineEnd()) ++at_;
         if (at_ != end_ && *at_++ == '\r' && at_ != end_ && *at_ == '\n') ++at_;
     }
-    /// The characters up to the next space; empty at a line end.
+    /// Returns the characters up to the next space; empty at a line end.
     std::string_view word() {
         skipBlanks();
         const char* start = at_;
         while (at_ != end_ && !isSpace(*at_)) ++at_;
         return {start, size_t(at_ - start)};
     }
-    /// What is left of the line, without its end, which is skipped.
+    /// Returns the rest of the line without its end; skips both.
     std::string_view line() {
         const char* start = at_;
         while (!atLineEnd()) ++at_;
@@ -57,11 +57,11 @@ class TextCursor {
         return true;
     }
 
-    /// A whole word as a number, correctly rounded; NaN and infinity as they are spelled. False when the word
-    /// is no number.
+    /// Reads a whole word as a number, correctly rounded; "nan" and "inf" are numbers. Returns false when the
+    /// word is not a number.
     bool number(float& value) { return word(value); }
     bool number(double& value) { return word(value); }
-    /// An integer, which something other than a digit ends. False when there is none, or it does not fit.
+    /// Reads an integer; any other character ends it. Returns false when there is none or it does not fit.
     bool integer(long long& value) {
         skipBlanks();
         if (at_ != end_ && *at_ == '+') ++at_;
@@ -69,7 +69,7 @@ class TextCursor {
         at_ = stop;
         return error == std::errc();
     }
-    /// The number of the line that the cursor is in, from 1. Counts from the start: for messages.
+    /// The number of the line that the cursor is in, from 1. Slow, as it counts from the start: for messages.
     size_t lineNumber() const {
         size_t lines = 1;
         for (const char* c = begin_; c != at_; ++c)

@@ -85,7 +85,7 @@ TEST(Flatten, refusesBadIndicesOverflowAndEmptiness) {
         "mesh 1 'm': vertex 2 is not finite where instance 1 places it");
     mesh.triangles.push_back({0, 3, 1});
     EXPECT_EQ(flattenRefusal({{mesh}, {{0, kIdentityTransform}}}),
-              "mesh 0 'm': triangle 1 uses vertex 3, but there are only 3");
+              "mesh 0 'm': triangle 1 uses vertex 3, but the mesh has only 3 vertices");
 }
 
 TEST(Flatten, refusesMoreThanTwoToTheThirtyOneTriangles) {
@@ -120,7 +120,7 @@ TEST(Flatten, treatsDegenerateTrianglesAsAsked) {
     EXPECT_EQ(dropped.primitiveId(4).primitive, 3u);
 
     EXPECT_NE(flattenRefusal(imported, {OnDegenerate::error})
-                  .find("4 triangles have zero area; the first is triangle 0 of geometry 0 'bad'"),
+                  .find("4 triangles of zero area; the first is triangle 0 of geometry 0 'bad'"),
               std::string::npos);
     EXPECT_NE(flattenRefusal({{{"flat", {{0, 0, 0}}, {{0, 0, 0}}}}, {{0, kIdentityTransform}}},
                              {OnDegenerate::drop})

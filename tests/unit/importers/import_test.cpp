@@ -37,10 +37,41 @@ TEST(Import, readsDracoFiles) {
 
 TEST(Import, saysWhatAFileIsNot) {
     EXPECT_NE(refusal("", "x.obj").find("empty"), std::string::npos);
-    EXPECT_NE(refusal("hello", "x.ply").find("does not begin as a ply file"), std::string::npos);
+    EXPECT_NE(refusal("hello", "x.ply").find("is not that of a .ply file"), std::string::npos);
     EXPECT_NE(refusal("hello", "x.txt", ErrorKind::unsupported).find("x.txt"), std::string::npos);
     EXPECT_NE(refusal(std::string("\xfe\xff\0v", 4), "x.obj", ErrorKind::unsupported).find("UTF-16"),
               std::string::npos);
+}
+
+TEST(Import, knowsTheKindOfAFile) {
+    EXPECT_EQ(sceneKind(asBytes("glTF and more"), "x.bvhx"), "GLB");
+    EXPECT_EQ(sceneKind(asBytes("{}"), "x.gltf"), "glTF");
+    EXPECT_EQ(sceneKind(asBytes(kObj), "standard input"), "OBJ");
+    EXPECT_EQ(sceneKind(asBytes("ply\nformat"), "x"), "PLY");
+    EXPECT_EQ(sceneKind(asBytes("solid"), "x"), "STL");
+    EXPECT_EQ(sceneKind(asBytes("DRACO"), "x"), "Draco");
+    for (const char* other : {"", "hello"}) EXPECT_EQ(sceneKind(asBytes(other), "x.glb"), "") << other;
+    const std::string container =
+        "\x9c"
+        "BVHX \r\n\x1a\n" +
+        std::string("\0\xfe", 2);
+    EXPECT_EQ(sceneKind(asBytes(container), "x.obj"), "");
+    EXPECT_NE(refusal(container, "x.obj", ErrorKind::unsupported).find("x.obj: is a .bvhx already"),
+              std::string::npos);
+}
+
+// Fails if messages name a file without the folder that was given.
+TEST(Import, namesTheFileByItsWholePath) {
+    const auto path =
+        std::filesystem::temp_directory_path() / ("bvhio_path_test_" + std::to_string(::getpid()) + ".obj");
+    std::ofstream(path) << "v 0 0\n";
+    try {
+        importFile(path);
+        ADD_FAILURE() << "no error";
+    } catch (const Error& error) {
+        EXPECT_TRUE(std::string(error.what()).starts_with(path.string() + ": ")) << error.what();
+    }
+    std::filesystem::remove(path);
 }
 
 TEST(Import, readsFiles) {

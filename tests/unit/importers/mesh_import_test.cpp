@@ -5,10 +5,19 @@
 namespace bvhio {
 namespace {
 
+Mesh parseObj(std::span<const std::byte> bytes, const std::string& name) {
+    LeftOut leftOut;
+    return readObj(bytes, name, leftOut);
+}
+Mesh parsePly(std::span<const std::byte> bytes, const std::string& name) {
+    LeftOut leftOut;
+    return readPly(bytes, name, leftOut);
+}
+
 using Triangles = std::vector<TriangleIndices>;
 
 TEST(Obj, fansPolygonsAndCountsBackFromNegativeIndices) {
-    const Mesh mesh = readObj(
+    const Mesh mesh = parseObj(
         asBytes("# a comment\r\nmtllib none.mtl\no first\nv 0 0 0 1\nv +1 0 0\nv 1 1e0 0\nv 0 1 0\n"
                 "usemtl b\nf 1/1 2//3 3/4/5 4\no second\nv 0 0 5\nusemtl a\nf -1 -2 \\\n -3\nl 1 2\np 1\n"
                 "f 1 2\n"),
@@ -19,7 +28,7 @@ TEST(Obj, fansPolygonsAndCountsBackFromNegativeIndices) {
 }
 
 TEST(Obj, roundsNumbersOnceAndKeepsTinyOnes) {
-    const Mesh mesh = readObj(asBytes("v 0.1 1e-45 -1e-60\nv 16777217 1e30 3.4028235e38\n"), "x.obj");
+    const Mesh mesh = parseObj(asBytes("v 0.1 1e-45 -1e-60\nv 16777217 1e30 3.4028235e38\n"), "x.obj");
     EXPECT_EQ(mesh.vertices[0].x, 0.1f);
     EXPECT_EQ(mesh.vertices[0].y, 1e-45f);
     EXPECT_EQ(mesh.vertices[0].z, 0.0f);
@@ -32,7 +41,7 @@ TEST(Obj, refusesWhatOthersReadAsZero) {
     EXPECT_NE(refusal("v 0 1e39 0\n" + face, "x.obj").find("vertex 0 is not finite"), std::string::npos);
     EXPECT_NE(refusal("v 0 0\n" + face, "x.obj").find("line 1"), std::string::npos);
     EXPECT_NE(refusal("v 0 0 1x\n" + face, "x.obj").find("line 1"), std::string::npos);
-    EXPECT_NE(refusal("v 0 0 0\nf 1 1 2\n", "x.obj").find("uses vertex 1, but there are only 1"),
+    EXPECT_NE(refusal("v 0 0 0\nf 1 1 2\n", "x.obj").find("uses vertex 1, but the mesh has only 1 vertex"),
               std::string::npos);
     EXPECT_NE(refusal("v 0 0 0\r\nf 1 1 0\n", "x.obj").find("line 2"), std::string::npos);
     EXPECT_NE(refusal("v 0 0 0\nf 1 1 -2\n", "x.obj").find("line 2"), std::string::npos);
@@ -73,12 +82,12 @@ void expectTestPly(const Mesh& mesh) {
 
 TEST(Ply, readsTextAndBothByteOrders) {
     for (const char* lineEnd : {"\n", "\r\n", "\r"})
-        expectTestPly(readPly(
+        expectTestPly(parsePly(
             asBytes(plyHeader("ascii", lineEnd) + "7 0 0 0 0\n7 1 0 -1 1 5\n7 1 1 -2 0\n7 0 1 -3 0\n" +
                     "9\n4 0 1 2 3 1\n3 3 2 1 1"),
             "x.ply"));
-    expectTestPly(readPly(asBytes(binaryPly(false)), "x.ply"));
-    expectTestPly(readPly(asBytes(binaryPly(true)), "x.ply"));
+    expectTestPly(parsePly(asBytes(binaryPly(false)), "x.ply"));
+    expectTestPly(parsePly(asBytes(binaryPly(true)), "x.ply"));
 }
 
 std::string plainPly(std::initializer_list<uint8_t> polygonSizes) {
@@ -96,7 +105,7 @@ std::string plainPly(std::initializer_list<uint8_t> polygonSizes) {
 }
 
 TEST(Ply, fansPolygonsBetweenPlainTriangles) {
-    EXPECT_EQ(readPly(asBytes(plainPly({3, 5, 3, 2, 0, 4})), "x.ply").triangles,
+    EXPECT_EQ(parsePly(asBytes(plainPly({3, 5, 3, 2, 0, 4})), "x.ply").triangles,
               (Triangles{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 1, 2}, {0, 1, 2}, {0, 2, 3}}));
 }
 
@@ -105,7 +114,7 @@ TEST(Ply, unrollsTriangleStrips) {
         "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
         "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
     const std::string vertices = "0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n";
-    EXPECT_EQ(readPly(asBytes(header + vertices + "11 0 1 2 3 4 -1 5 4 3 -1 0\n"), "x.ply").triangles,
+    EXPECT_EQ(parsePly(asBytes(header + vertices + "11 0 1 2 3 4 -1 5 4 3 -1 0\n"), "x.ply").triangles,
               (Triangles{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {5, 4, 3}}));
 }
 
@@ -124,7 +133,7 @@ TEST(Ply, refusesDamage) {
     EXPECT_NE(refusal(text + "0 0 0\n1 oh 0\n0 1 0\n3 0 1 2\n", "x.ply").find("line 2"), std::string::npos);
     std::string many = plainPly({3});
     many.replace(many.find("face 1"), 6, "face 9876543210");
-    EXPECT_NE(refusal(many, "x.ply").find("claims 9876543210 of element 'face'"), std::string::npos);
+    EXPECT_NE(refusal(many, "x.ply").find("claims 9876543210 elements 'face'"), std::string::npos);
     EXPECT_NE(refusal("ply\nformat ascii 1.0\nelement vertex 1\nproperty odd x\nend_header\n0\n", "x.ply")
                   .find("'odd'"),
               std::string::npos);
@@ -188,6 +197,19 @@ TEST(MeshFiles, surviveCutsAndFlippedBits) {
         "x.ply");
     damageEverywhere(binaryStl(2, 2), "x.stl");
     damageEverywhere(kTextStl, "x.stl");
+}
+
+// Fails if elements that are no triangles vanish without being counted.
+TEST(MeshImport, countsPointsAndLines) {
+    EXPECT_EQ(importText("v 0 0 0\np 1\np 1\nl 1 1 1\n", "x.obj").leftOut,
+              (LeftOut{.points = 2, .lines = 1}));
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "element edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n0 0 0\n0 0\n0 0\n";
+    EXPECT_EQ(importText(ply, "x.ply").leftOut, (LeftOut{.lines = 2}));
+    EXPECT_NE(refusal("v 0 0 0\n", "x.obj").find("no triangles, only vertices"), std::string::npos);
+    EXPECT_NE(refusal("v 0 0 0\np 1\n", "x.obj").find("no triangles, only points or lines"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
-// bvh-build: from a scene to a container; or from a container's tree to the same tree over a moved scene.
+// bvh-build: makes a container from a scene, or fits the tree of a container to the scene in another pose.
 #include "build/builders.h"
 #include "build/instanced.h"
 #include "build/spatial.h"
+#include "common/import_summary.h"
 #include "common/input.h"
 #include "common/log.h"
 #include "common/pass.h"
 #include "common/run_tool.h"
-#include "common/useless_options.h"
+#include "common/unused_options.h"
 #include "file/form_chunks.h"
 #include "importers/import.h"
 #include "scene/moved_scene.h"
@@ -25,8 +26,8 @@ const ToolInfo kTool = {
 };
 
 const std::vector<NamedValue> kOnDegenerate = {
-    {"keep", "they can't be hit, but keep their ids"},
-    {"drop", "leave them out; the others keep their ids"},
+    {"keep", "keep them with their ids; no ray can hit them"},
+    {"drop", "leave them out; other triangles keep their ids"},
     {"error", "refuse the scene"},
 };
 
@@ -35,44 +36,65 @@ OnDegenerate onDegenerate(std::string_view name) {
 }
 
 Error withName(const std::string& input, const Error& error) {
-    return {error.kind(), (input == "-" ? "standard input" : input) + ": " + error.what()};
+    return {error.kind(), inputName(input) + ": " + error.what()};
 }
 
-Scene import(const std::string& input, const ImportOptions& options, bool shares = false) {
-    const std::string name = input == "-" ? "standard input" : input;
-    ImportedScene imported = input == "-" ? importBytes(readWholeFile(input), name, ".") : importFile(input);
+/// A scene, flattened or instanced, and what its file has.
+struct SceneAndCounts {
+    Scene scene;
+    ImportCounts counts;
+};
+
+/// Reads the scene that `pass` names. Reading standard input is a stage of its own, as it waits for others.
+SceneAndCounts importScene(Pass& pass, const ImportOptions& options, bool shares = false) {
+    const std::string& input = pass.input();
+    ImportedScene imported;
+    if (input == "-") {
+        pass.stages().begin("read", readingKind(input));
+        const std::vector<std::byte> bytes = readWholeFile(input);
+        pass.stages().begin("import");
+        imported = importBytes(bytes, inputName(input), ".");
+    } else {
+        pass.stages().begin("import");
+        imported = importFile(input);
+    }
+    const ImportCounts counts = countsOf(imported);
     try {
-        return shares ? shareMeshes(std::move(imported), options) : flatten(std::move(imported), options);
+        Scene scene =
+            shares ? shareMeshes(std::move(imported), options) : flatten(std::move(imported), options);
+        logImport(counts, !shares);
+        return {std::move(scene), counts};
     } catch (const Error& error) {
         throw withName(input, error);  // meshes don't know their file
     }
 }
 
-/// The tree of the container `old`, in its form, fitted to the scene, which must be the same mesh.
+/// Fits the tree of the container `old`, in its form, to the scene, which must be the same mesh.
 void refit(Pass& pass, const std::string& old) {
     BvhxFile file = pass.read(old);
     if (isInstanced(file.bvh))
-        throw Error(ErrorKind::usage, "--refit: " + old + " has instances: build anew with --two-level");
-    pass.stages().begin("import");
-    const Scene scene = import(pass.input(), {});
+        throw Error(ErrorKind::usage, "--refit: " + old + " has instances: build again with --two-level");
+    const SceneAndCounts moved = importScene(pass, {});
     pass.stages().begin("refit");
     try {
-        file.scene = movedScene(file.scene, scene);
+        file.scene = movedScene(file.scene, moved.scene);
     } catch (const Error& error) {
         throw withName(pass.input(), error);
     }
     const size_t references = std::visit([](const auto& form) { return form.primitives().size(); }, file.bvh);
     if (references > file.scene.triangles.size())
         logInfo(
-            "boxes of triangles that spatial splits cut grow to whole triangles: build anew for tight ones");
+            "boxes of triangles that spatial splits cut grow to whole triangles: build again for tight "
+            "boxes");
     file.bvh = refitTo(file.bvh, file.scene);
     dropChunksThatDoNotSurvive(file, Change::topologyChanged);
     dropChunksThatDoNotSurvive(file, Change::reordered);
     pass.recordOptions({{"refit", true}});
-    pass.finish(file, {}, "refit",
-                {{"form", formNameOf(file.bvh)},
-                 {"primitives", file.scene.triangles.size()},
-                 {"references", references}});
+    Report report = {{"form", formNameOf(file.bvh)},
+                     {"primitives", file.scene.triangles.size()},
+                     {"references", references}};
+    report.update(reportOf(moved.counts));
+    pass.finish(file, {}, "refit", report);
 }
 
 EncodedBvh built(const Scene& scene, const Builder& builder, const BuildOptions& options) {
@@ -88,37 +110,36 @@ ExitCode build(CommandLine& line) {
     BuildOptions options;
     std::string builder(builders()[0].name), degenerate(kOnDegenerate[0].name);
     line.choice("--builder", builder, namedValues(builders()), "how the tree is built");
-    line.number("--bins", options.bins, 0, 256, "bins an axis, for binned and spatial; 0: the builder's own");
+    line.number("--bins", options.bins, 0, 256,
+                "bins per axis, for binned and spatial; 0: chosen by the builder");
     line.number("--max-leaf-size", options.maxLeafSize, 1, kMaxLeafSize, "most triangles in a leaf");
     line.number("--split-budget", options.splitBudget, 0, kMaxSplitBudget,
-                "for spatial: most references that cutting adds, per triangle");
+                "most references per triangle that splitting adds, for spatial");
     line.number("--traversal-cost", options.costs.traversal, 0, 1e6f, "SAH cost of visiting an inner node");
     line.number("--intersection-cost", options.costs.intersection, 0, 1e6f,
                 "SAH cost of a ray-triangle test");
-    line.choice("--on-degenerate", degenerate, kOnDegenerate, "what to do with triangles of zero area");
+    line.choice("--on-degenerate", degenerate, kOnDegenerate, "treatment of triangles of zero area");
     bool twoLevel = false;
     line.flag("--two-level", twoLevel,
-              "a tree for each mesh, in its own space, and one over their instances");
-    line.beginPlumbing();
+              "keep instances: a tree for each mesh, in its own space, and one over their instances");
     std::string old;
-    line.text("--refit", "OLD.bvhx", old, "build nothing: fit this file's tree to SCENE, its mesh moved");
-    Pass pass(line, "SCENE", "the scene's file; - or nothing: standard input");
+    line.path("--refit", "OLD.bvhx", old,
+              "container whose tree is fitted to SCENE, the same mesh in another pose, instead of building");
+    Pass pass(line, "SCENE", "scene file; - or nothing: standard input");
     if (!old.empty()) {
         if (!line.given().empty())
-            throw Error(
-                ErrorKind::usage,
-                line.given()[0] + ": --refit keeps the tree that OLD.bvhx has: leave one of them out");
+            throw Error(ErrorKind::usage,
+                        line.given()[0] + ": --refit keeps the tree of OLD.bvhx: leave one of them out");
         if (old == "-" && pass.input() == "-")
-            throw Error(ErrorKind::usage, "--refit: standard input is SCENE already: name a file");
+            throw Error(ErrorKind::usage, "--refit: standard input is already SCENE: name a file");
         refuseTerminalInput(old);
         refit(pass, old);
         return ExitCode::done;
     }
 
     const Builder& chosen = choose(builders(), "builder", builder);
-    refuseUseless(line, "builder", chosen, {{"--bins", kUsesBins}, {"--split-budget", kUsesSplitBudget}});
-    pass.stages().begin("import");
-    Scene scene = import(pass.input(), {onDegenerate(degenerate)}, twoLevel);
+    refuseUnused(line, "builder", chosen, {{"--bins", kUsesBins}, {"--split-budget", kUsesSplitBudget}});
+    auto [scene, importCounts] = importScene(pass, {onDegenerate(degenerate)}, twoLevel);
     pass.stages().begin("build");
     options.progress = &pass.stages().progress();
     EncodedBvh bvh = twoLevel ? builtInstanced(scene, chosen, options) : built(scene, chosen, options);
@@ -128,6 +149,7 @@ ExitCode build(CommandLine& line) {
         counts.update({{"meshes", file.scene.meshes.size()},
                        {"instances", file.scene.instances.size()},
                        {"instanced_primitives", file.scene.primitiveCount()}});
+    counts.update(reportOf(importCounts));
     pass.finish(file, {}, "build", counts);
     return ExitCode::done;
 }

@@ -1,7 +1,7 @@
-// bvh-relayout: orders a tree's nodes in memory; its cost stays.
+// bvh-relayout: orders a tree's nodes in memory; the SAH cost stays the same.
 #include "common/pass.h"
 #include "common/run_tool.h"
-#include "common/useless_options.h"
+#include "common/unused_options.h"
 #include "relayout/clusters.h"
 #include "relayout/layouts.h"
 #include "relayout/order_effect.h"
@@ -12,47 +12,53 @@ namespace {
 
 const ToolInfo kTool = {
     "bvh-relayout",
-    "Orders the nodes of a container's tree, and its leaves' primitives, in memory.",
+    "Orders the nodes of a container's tree, and the primitives of its leaves, in memory.",
     "  bvh-relayout scene.bvhx --layout pack | bvh-compress --form quantized -o compact.bvhx\n",
 };
 
-/// The options of layouts: below their ranges where not given.
+/// The options of layouts. A value below its range was not given.
 class LayoutChoice {
   public:
     explicit LayoutChoice(CommandLine& line) : line_(line) {
-        line.choice("--layout", name_, namedValues(layouts()), "the order of the nodes");
-        line.choice("--probability", probability_, kProbabilities, "how likely a node is to be entered");
-        line.number("--smoothing", smoothing_, 0, 1e6f,
-                    "visits: how many random rays count beside each recorded one");
-        line.number("--line-size", lineSize_, 16, 1u << 20, "bytes of a cache line");
+        const LayoutOptions defaults;
+        line.choice("--layout", name_, namedValues(layouts()), "order of the nodes");
+        line.choice("--probability", probability_, kProbabilities,
+                    "probability that a ray enters a node (default area)");
+        line.number(
+            "--smoothing", smoothing_, 0, 1e6f,
+            withDefault("random rays added for each recorded ray, for --probability visits", kSmoothing));
+        line.number("--line-size", lineSize_, 16, 1u << 20,
+                    withDefault("bytes of a cache line", defaults.lineSize));
         line.number("--record-bytes", recordBytes_, 4, 1u << 10,
-                    "bytes that a pair of siblings takes in the form to come");
+                    withDefault("bytes of a pair of siblings in the form that bvh-compress will use",
+                                defaults.recordBytes));
         line.number("--threshold", threshold_, 0, 1,
-                    "the least probability at which a treelet goes on to a child");
-        line.number("--treelet-size", treeletSize_, 1, UINT32_MAX, "most pairs of siblings in a treelet");
+                    "least probability of a child that a treelet takes in (default 0.5)");
+        line.number("--treelet-size", treeletSize_, 1, UINT32_MAX,
+                    "most pairs of siblings in a treelet (default: no limit in tdfs, one line in tbfs)");
         line.number("--pointer-bits", pointerBits_, SlotMap::kMinPointerBits, SlotMap::kMaxPointerBits,
-                    "bits of a reference within a cluster");
+                    withDefault("bits of a reference within a cluster", defaults.pointerBits));
     }
 
     /// Whether weights are visits.
     bool byVisits() const { return probability_ == kProbabilities[1].name; }
     float smoothing() const { return smoothing_; }
 
-    /// The chosen layout, with what was given added to the options, and the rest filled in. Throws
-    /// Error{usage} for what it has no use for.
+    /// Returns the chosen layout and puts its options, given or default, into `options`. Throws Error{usage}
+    /// for an option that the layout does not use.
     const Layout& choose(LayoutOptions& options) {
         const Layout& layout = bvhio::choose(layouts(), "layout", name_);
-        refuseUseless(line_, "layout", layout,
-                      {{"--probability", kUsesWeights},
-                       {"--line-size", kUsesLines | kUsesLineSize},
-                       {"--record-bytes", kUsesLines},
-                       {"--threshold", kUsesThreshold},
-                       {"--treelet-size", kUsesTreeletSize},
-                       {"--pointer-bits", kUsesPointerBits}});
+        refuseUnused(line_, "layout", layout,
+                     {{"--probability", kUsesWeights},
+                      {"--line-size", kUsesLines | kUsesLineSize},
+                      {"--record-bytes", kUsesLines},
+                      {"--threshold", kUsesThreshold},
+                      {"--treelet-size", kUsesTreeletSize},
+                      {"--pointer-bits", kUsesPointerBits}});
         if (probability_.empty() && (layout.function.uses & kUsesWeights) != 0)
             probability_ = kProbabilities[0].name;
         if (!byVisits() && smoothing_ >= 0)
-            throw Error(ErrorKind::usage, "--smoothing: is for --probability visits: leave it out");
+            throw Error(ErrorKind::usage, "--smoothing: is only for --probability visits: leave it out");
         if (byVisits() && smoothing_ < 0) smoothing_ = kSmoothing;
         take(layout, kUsesLines | kUsesLineSize, lineSize_, options.lineSize, 0u);
         take(layout, kUsesLines, recordBytes_, options.recordBytes, 0u);
@@ -71,8 +77,8 @@ class LayoutChoice {
     }
 
     inline static const std::vector<NamedValue> kProbabilities = {
-        {"area", "the default: by the areas of boxes"},
-        {"visits", "by the visits that bvh-trace --record-visits counted"},
+        {"area", "proportional to the area of its box"},
+        {"visits", "from the visits that bvh-trace --record-visits counted"},
     };
     // The least at which a view from the other side loses at most 2% against areas.
     static constexpr float kSmoothing = 2;
@@ -83,7 +89,7 @@ class LayoutChoice {
     float threshold_ = -1, smoothing_ = -1;
 };
 
-/// What the report says of the order and of clusters, over all trees.
+/// The report's part about the order and the clusters, over all trees.
 class LayoutReport {
   public:
     void add(const Bvh& before, const LayoutResult& layout, const LayoutOptions& options) {
@@ -117,7 +123,7 @@ class LayoutReport {
                         {"record_bytes", effects_[0].recordBytes}, {"line_bytes", lineBytes_},
                         {"page_bytes", OrderEffect::kPageBytes},   {"lines", sum(&OrderEffect::lines)},
                         {"pages", sum(&OrderEffect::pages)}};
-        // How often rays reach each of several trees is not known.
+        // It is not known how often rays reach each of several trees.
         if (effects_.size() > 1) return order;
         const auto changes = [](const ExpectedChanges& of) {
             return Report{{"before", of.before}, {"after", of.after}};
@@ -142,14 +148,15 @@ class LayoutReport {
 
 ExitCode relayout(CommandLine& line) {
     LayoutChoice choice(line);
-    Pass pass(line, "INPUT", "the container; - or nothing: standard input");
+    Pass pass(line, "INPUT", "container; - or nothing: standard input");
     LayoutOptions options;
     const Layout& layout = choice.choose(options);
 
     BvhxFile file = pass.read();
     if (choice.byVisits() && file.visits.empty())
-        throw Error(ErrorKind::usage,
-                    "--probability visits: the container has none: record them by bvh-trace --record-visits");
+        throw Error(
+            ErrorKind::usage,
+            "--probability visits: the container has no visits: record them with bvh-trace --record-visits");
     pass.stages().begin("relayout");
     std::vector<uint32_t> visits;
     LayoutReport report;

@@ -1,7 +1,7 @@
-// bvh-restructure: lowers a tree's cost by changing which nodes it has.
+// bvh-restructure: lowers a tree's cost by changing its nodes.
 #include "common/pass.h"
 #include "common/run_tool.h"
-#include "common/useless_options.h"
+#include "common/unused_options.h"
 #include "compress/exact_boxes.h"
 #include "restructure/restructurers.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 const ToolInfo kTool = {
     "bvh-restructure",
-    "Lowers the cost of a container's tree by changing which nodes it has.",
+    "Lowers the SAH cost of a container's tree by changing its nodes.",
     "  bvh-build scene.glb | bvh-restructure -o scene.bvhx\n"
     "  bvh-build scene.glb | bvh-restructure --iterations 100 --report steps.json -o "
     "scene.bvhx\n",
@@ -30,25 +30,27 @@ ExitCode restructure(CommandLine& line) {
     RestructureOptions options;
     std::string method(restructurers()[0].name);
     line.choice("--method", method, namedValues(restructurers()), "how the tree is changed");
-    line.number("--iterations", options.iterations, 0, 100000, "passes over the tree; 0: the method's own");
+    line.number("--iterations", options.iterations, 0, 100000,
+                "passes over the tree; 0: the method's own number");
     line.number("--treelet-size", options.treeletSize, 0, kMaxTreeletSize,
-                "leaves of a treelet, for atr and tr; 0: the method's own");
+                "leaves per treelet, for atr and tr; 0: the method's own number");
     line.number("--gamma", options.gamma, 0, 1u << 30,
-                "atr, tr: fewest references below a node that roots a treelet; 0: the treelet size");
-    line.toggle("collapse", options.collapse, "open leaves first, and form them again where that is cheaper");
+                "fewest references below the root of a treelet, for atr and tr; 0: the treelet size");
+    line.toggle("collapse", options.collapse,
+                "split leaves into single triangles first, and form new leaves where that is cheaper");
     line.number("--max-leaf-size", options.maxLeafSize, 0, kMaxLeafSize,
-                "most triangles of a leaf that forms; 0: as in INPUT, and at least 4");
-    Pass pass(line, "INPUT", "the container; - or nothing: standard input");
+                "most triangles in a new leaf; 0: the most in a leaf of INPUT, but at least 4");
+    Pass pass(line, "INPUT", "container; - or nothing: standard input");
     const Restructurer& chosen = choose(restructurers(), "method", method);
-    refuseUseless(line, "method", chosen,
-                  {{"--iterations", kUsesIterations},
-                   {"--treelet-size", kUsesTreelets},
-                   {"--gamma", kUsesTreelets},
-                   {"--collapse", kUsesLeaves},
-                   {"--max-leaf-size", kUsesLeaves}});
+    refuseUnused(line, "method", chosen,
+                 {{"--iterations", kUsesIterations},
+                  {"--treelet-size", kUsesTreelets},
+                  {"--gamma", kUsesTreelets},
+                  {"--collapse", kUsesLeaves},
+                  {"--max-leaf-size", kUsesLeaves}});
     if (!options.collapse && line.isGiven("--max-leaf-size"))
         throw Error(ErrorKind::usage,
-                    "--max-leaf-size: with --no-collapse no leaves form: leave one of them out");
+                    "--max-leaf-size: --no-collapse forms no new leaves: leave one of them out");
 
     BvhxFile file = pass.read();
     pass.stages().begin("restructure");
@@ -59,8 +61,7 @@ ExitCode restructure(CommandLine& line) {
     Report iterations = Report::array();
     double seconds = 0, bytesPerNode = 0;
     changeTrees(file, [&](const Scene& scene, const Bvh& given, bool isTop) {
-        // Costs are judged by the boxes that the tree is about, not by those that a compact form made of
-        // them.
+        // Costs are those of the tree's exact boxes, not of the larger ones of a compact form.
         const Bvh bvh = isExact ? given : withExactBoxes(scene, given);
         RestructureOptions own = options;
         if (isTop) own.collapse = false;  // an instance has a leaf of its own

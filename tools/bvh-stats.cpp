@@ -1,4 +1,4 @@
-// bvh-stats: tells what a container holds, checks it, and compares it with another.
+// bvh-stats: reports what a container holds, checks it, and compares it with another.
 #include <filesystem>
 
 #include "common/input.h"
@@ -16,25 +16,27 @@ namespace {
 
 const ToolInfo kTool = {
     "bvh-stats",
-    "Tells what a container holds: its tree, its sizes, its history; checks it, and compares it with "
-    "another.",
+    "Reports what a container holds: its tree, sizes and history; checks it, and compares it with another.",
     "  bvh-build scene.glb | bvh-stats\n"
     "  bvh-stats scene.bvhx --check\n"
     "  bvh-stats before.bvhx --diff after.bvhx\n",
 };
 
-/// The input, which is looked at more than once: what comes through a pipe is kept.
+/// The input. It is read more than once, so the bytes of a pipe are kept.
 struct Input {
     explicit Input(const std::string& path_)
-        : path(path_), isPipe(!isRegularFile(path_)), name(path == "-" ? "standard input" : path) {
+        : path(path_), isPipe(!isRegularFile(path_)), name(inputName(path_)) {
         if (isPipe) bytes = readWholeFile(path);
     }
-    BvhxFile read() const { return isPipe ? readBvhx(bytes, name) : readBvhx(path); }
+    BvhxFile read() const {
+        if (!isPipe) return readContainer(path);
+        return readContainer(bytes, name);
+    }
     std::vector<Finding> check() const { return isPipe ? checkBytes(bytes, name) : checkFile(path); }
     ChunkList chunks() const { return isPipe ? listChunks(bytes, name) : listChunks(path); }
     uint64_t size() const { return isPipe ? bytes.size() : std::filesystem::file_size(path); }
 
-    /// False too for what can't be looked at: reading it tells why.
+    /// False also where the path leads nowhere: reading it reports why.
     static bool isRegularFile(const std::string& path) {
         std::error_code error;
         return std::filesystem::is_regular_file(path, error);
@@ -89,8 +91,8 @@ Report provenanceReport(const BvhxFile& file) {
     return report;
 }
 
-/// What each part takes in the file; `other` is provenance, unknown chunks, and the headers and padding of
-/// all.
+/// The bytes of each part of the file; `other` is provenance, unknown chunks, and the headers and padding of
+/// all chunks.
 Report storedBytes(const ChunkList& list, uint64_t fileSize) {
     uint64_t nodes = 0, primitives = 0, geometry = 0;
     for (const ListedChunk& chunk : list.chunks) {
@@ -102,7 +104,7 @@ Report storedBytes(const ChunkList& list, uint64_t fileSize) {
                  type == kMeshesType || type == kInstancesType)
             geometry += chunk.header.storedSize;
         else if (findChunkKind(type) && type != kProvenanceType && type != kEndType)
-            nodes += chunk.header.storedSize;  // the chunks of whichever form
+            nodes += chunk.header.storedSize;  // the chunks of any form
     }
     return {{"nodes", nodes},
             {"primitives", primitives},
@@ -124,17 +126,18 @@ Report summary(const BvhxFile& file, const Input& input, bool withEpo) {
 ExitCode stats(CommandLine& line) {
     bool check = false, chunks = false, provenance = false, levels = false, noEpo = false;
     std::string other;
-    line.flag("--check", check, "check the file; print numbered findings, exit 7 when one is an error");
-    line.flag("--chunks", chunks, "list the file's chunks");
-    line.flag("--provenance", provenance, "list the tools that made the file");
-    line.flag("--levels", levels, "tell, level by level, how much larger boxes are than exact ones");
-    line.text("--diff", "OTHER", other, "tell what sets the files apart; exit 7 when anything does");
-    line.flag("--no-epo", noEpo, "leave out epo, which takes longest");
+    line.flag("--check", check, "check the file: print numbered findings; exit code 7 for errors");
+    line.flag("--chunks", chunks, "list the chunks of the file");
+    line.flag("--provenance", provenance, "list the tools that made the file, and their options");
+    line.flag("--levels", levels, "report for each level how much larger its boxes are than exact ones");
+    line.text("--diff", "OTHER.bvhx", other, "report how OTHER.bvhx differs; exit code 7 when it does");
+    line.flag("--no-epo", noEpo, "leave out epo, the slowest part of the summary");
+    line.suggestForExtra("--diff");
     QueryTool query(line);
-    query.stages().begin("read");
+    query.stages().begin("read", readingKind(query.input()));
     const Input input(query.input());
 
-    // Damage must not keep --check and --chunks from telling what they can: the content is read after them.
+    // --check and --chunks report as much as they can of a damaged file, so they come before reading it.
     bool broken = false;
     std::optional<Finding> stop;
     Report asked = Report::object();
@@ -159,7 +162,7 @@ ExitCode stats(CommandLine& line) {
             if (isInstanced(file.bvh) || isInstanced(second.bvh))
                 throw Error(
                     ErrorKind::usage,
-                    "--diff: compares single trees, and a scene has instances: use bvh-trace --compare");
+                    "--diff: only compares single trees, and a scene has instances: use bvh-trace --compare");
             asked["diff"] =
                 diffReport({file.scene, file.bvh, file.costs}, {second.scene, second.bvh, second.costs});
             different = !asked["diff"]["differences"].empty();
@@ -173,6 +176,9 @@ ExitCode stats(CommandLine& line) {
             asked = std::move(report);
         }
     }
+    // A person expects a line; a script expects silence.
+    if (check && asked["findings"].empty() && !query.isJson() && query.printsToTerminal())
+        query.out() << input.name << ": no findings\n";
     query.print(!query.isJson() && asked.size() == 1 && asked.contains("diff") ? asked["diff"] : asked);
     query.finish();
     if (stop) throw FindingError(input.name, *stop);

@@ -11,12 +11,12 @@ namespace bvhio {
 
 std::span<const Builder> builders() {
     static constexpr Builder kTable[] = {
-        {"binned", "binned SAH on all threads: fast, and good trees", {buildBinned, kUsesBins}},
+        {"binned", "SAH over bins of centroids: fast, good trees", {buildBinned, kUsesBins}},
         {"sweep",
-         "SAH over all planes between centroids: twice binned's time, mostly better trees",
+         "SAH over all planes between centroids: twice the time of binned, mostly better trees",
          {buildSweep, kUsesNothing}},
         {"spatial",
-         "SAH that may cut triangles between nodes: better trees, more references",
+         "SAH that may split triangles between nodes (SBVH): better trees, more references",
          {buildSpatial, kUsesBins | kUsesSplitBudget}},
         {"lbvh",
          "order along the Morton curve: several times faster to build, worse trees",

@@ -15,7 +15,7 @@ namespace bvhio {
 namespace {
 
 [[noreturn]] void failIo(const std::string& name, const char* what) {
-    throw Error(ErrorKind::io, name + ": cannot " + what + ": " + std::strerror(errno));
+    throw Error(ErrorKind::io, name + ": cannot be " + what + ": " + std::strerror(errno));
 }
 
 /// A file descriptor that closes itself.
@@ -100,14 +100,14 @@ class StreamSource : public ByteSource {
 
 Descriptor openToRead(const std::filesystem::path& path) {
     Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (descriptor.get() < 0) failIo(path.string(), "open");
+    if (descriptor.get() < 0) failIo(path.string(), "read");
     return descriptor;
 }
 
 /// Returns the size in bytes, or 0 if the file is not a regular one.
 uint64_t regularSize(const Descriptor& descriptor, const std::string& name) {
     struct stat status {};
-    if (::fstat(descriptor.get(), &status) != 0) failIo(name, "stat");
+    if (::fstat(descriptor.get(), &status) != 0) failIo(name, "read");
     return S_ISREG(status.st_mode) ? uint64_t(status.st_size) : 0;
 }
 
@@ -146,7 +146,7 @@ std::unique_ptr<ByteSource> openSource(const std::filesystem::path& path, uint64
                                             (length > 0 ? " of " + std::to_string(length) + " bytes" : "") +
                                             " is not within the file's " + std::to_string(size) + " bytes");
     auto mapped = mapRange(descriptor, offset, length > 0 ? length : size - offset, name);
-    if (!mapped) failIo(name, "map");
+    if (!mapped) failIo(name, "mapped");
     return mapped;
 }
 

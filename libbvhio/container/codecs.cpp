@@ -191,9 +191,9 @@ const Codec kDifferenceCodecs[] = {
 std::span<const Codec> codecs() {
     static const Codec kTable[] = {
         {"none",
-         "store as is; usable from a memory map without copying",
+         "no compression: arrays are used from the mapped file without copying",
          {0, 0, 0, 0, encodeNone, decodeNone}},
-        {"zstd", "Zstandard; levels 1 (fast) to 19 (small)", {1, 3, 1, 19, encodeZstd, decodeZstd}},
+        {"zstd", "Zstandard", {1, 3, 1, 19, encodeZstd, decodeZstd}},
     };
     return kTable;
 }

@@ -189,6 +189,10 @@ Resolution parseResolution(std::string_view text) {
     return r;
 }
 
+std::string formatResolution(const Resolution& resolution) {
+    return std::to_string(resolution.width) + "x" + std::to_string(resolution.height);
+}
+
 RaySet makeRaySet(std::string_view name, const Scene& scene, const RaySetOptions& options,
                   const ClosestHits& closestHits) {
     const RaySetChoice& row = choose(raySets(), "ray set", name);

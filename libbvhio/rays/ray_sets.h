@@ -5,6 +5,8 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/choice.h"
@@ -29,6 +31,9 @@ inline constexpr uint64_t kMaxRays = uint64_t(1) << 28;
 
 /// Parses "WxH", as in 1920x1080. Throws Error{usage}.
 Resolution parseResolution(std::string_view text);
+
+/// The text that parseResolution reads back.
+std::string formatResolution(const Resolution& resolution);
 
 struct RaySetOptions {
     Resolution resolution{};

@@ -28,9 +28,9 @@ constexpr NodeStorage kNodeStorages[] = {
      [](const AabbForm& form) { return StoredNodes(NodesInPairs(form.bvh())); }},
     {"record", "64 bytes with both children's boxes and references",
      [](const AabbForm& form) { return StoredNodes(NodesIn<RecordArray>(form)); }},
-    {"soa16-8", "the same in three arrays of 16 bytes and one of 8",
+    {"soa16-8", "these fields in three arrays of 16 bytes and one of 8",
      [](const AabbForm& form) { return StoredNodes(NodesIn<ArraysOf16And8>(form)); }},
-    {"soa32-24", "the same in an array of 32 bytes and one of 24",
+    {"soa32-24", "these fields in an array of 32 bytes and one of 24",
      [](const AabbForm& form) { return StoredNodes(NodesIn<ArraysOf32And24>(form)); }},
 };
 

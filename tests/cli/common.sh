@@ -68,3 +68,20 @@ for path in sys.argv[2:]:
     for key in path.split("."):
         value = value.get(key) if isinstance(value, dict) and key in value else print(sys.argv[1], "has no", path)' "$@"
 }
+
+# A glTF file: $1 its nodes, $2 its meshes. Accessor 0 is the three corners in triangle.bin.
+gltf() {
+    cat <<GLTF
+{"asset": {"version": "2.0"}, "scene": 0, "nodes": [$1], "meshes": [$2],
+ "scenes": [{"nodes": [$(grep -o '{[^}]*}' <<<"$1" | awk '{ printf "%s%d", (NR > 1 ? ", " : ""), NR - 1 }')]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"uri": "triangle.bin", "byteLength": 36}]}
+GLTF
+}
+
+# A PLY file of one triangle: $1 and $2 are more of its header and of its body, for printf.
+ply() {
+    printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n'
+    printf 'element face 1\nproperty list uchar int vertex_indices\n%bend_header\n' "$1"
+    printf '0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n%b' "$2"
+}

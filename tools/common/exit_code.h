@@ -1,17 +1,12 @@
-// The exit codes of every tool.
+// How a tool ends when nothing went wrong.
 #pragma once
 
 namespace bvhio {
 
-/// 1 to 5 are the values of ErrorKind (core/error.h).
+/// A tool's exit code. The code for an error is its kind's value, 1 to 5 (core/error.h).
 enum class ExitCode : int {
     done = 0,
-    usage = 1,        // a bad command line
-    io = 2,           // a missing file, a full disk, a closed pipe
-    invalid = 3,      // damaged or meaningless input
-    resources = 4,    // out of memory or over a limit
-    unsupported = 5,  // valid input that this version cannot read
-    findings = 7,     // --check, --diff or --compare found something
+    findings = 7,  // --check, --diff or --compare found something
 };
 
 }  // namespace bvhio

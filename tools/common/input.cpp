@@ -1,23 +1,49 @@
 #include "common/input.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
-#include "core/error.h"
+#include "container/byte_source.h"
+#include "core/findings.h"
+#include "importers/import.h"
 
 namespace bvhio {
+namespace {
+
+/// Throws Error{invalid} when `bytes` are those of a scene file.
+void refuseScene(std::span<const std::byte> bytes, const std::string& name) {
+    const std::string kind(sceneKind(bytes, name));
+    if (kind.empty()) return;
+    const char* article = kind == "OBJ" || kind == "STL" ? "an " : "a ";
+    throw Error(ErrorKind::invalid,
+                name + ": is " + article + kind + " file, not a .bvhx: run bvh-build on it first");
+}
+
+}  // namespace
 
 void refuseTerminalInput(const std::string& path) {
     if (path == "-" && isatty(STDIN_FILENO))
         throw Error(ErrorKind::usage, "no input: standard input is a terminal; name a file or use a pipe");
 }
 
+std::string inputName(const std::string& path) {
+    return path == "-" ? "standard input" : path;
+}
+
+StageKind readingKind(const std::string& path) {
+    struct stat status {};
+    const bool isFile = path != "-" || (fstat(STDIN_FILENO, &status) == 0 && S_ISREG(status.st_mode));
+    return isFile ? StageKind::working : StageKind::waiting;
+}
+
 std::vector<std::byte> readWholeFile(const std::string& path) {
-    const std::string name = path == "-" ? "standard input" : path;
+    const std::string name = inputName(path);
     const auto fail = [&]() {
         throw Error(ErrorKind::io, name + ": cannot be read: " + std::strerror(errno));
     };
@@ -37,6 +63,26 @@ std::vector<std::byte> readWholeFile(const std::string& path) {
             bytes.resize(size);
             return bytes;
         }
+    }
+}
+
+BvhxFile readContainer(const std::string& path) {
+    try {
+        return readBvhx(path);
+    } catch (const FindingError& error) {
+        std::error_code unknown;
+        if (error.finding().id == FindingId::signature && std::filesystem::is_regular_file(path, unknown))
+            refuseScene(openSource(path)->take(std::filesystem::file_size(path)), path);  // maps the file
+        throw;
+    }
+}
+
+BvhxFile readContainer(std::span<const std::byte> bytes, const std::string& name) {
+    try {
+        return readBvhx(bytes, name);
+    } catch (const FindingError& error) {
+        if (error.finding().id == FindingId::signature) refuseScene(bytes, name);
+        throw;
     }
 }
 

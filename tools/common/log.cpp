@@ -28,11 +28,15 @@ void setLogLevel(LogLevel level) {
                                                   : spdlog::level::info);
 }
 
+bool isVerbose() {
+    return spdlog::should_log(spdlog::level::info);
+}
+
 void logError(std::string_view message) {
     spdlog::error(oneLine(message));
 }
-void logWarning(std::string_view message) {
-    spdlog::warn("warning: " + oneLine(message));
+void logNote(std::string_view message) {
+    spdlog::warn("note: " + oneLine(message));
 }
 void logInfo(std::string_view message) {
     spdlog::info(oneLine(message));

@@ -1,4 +1,4 @@
-// What a tool says on standard error.
+// The lines that a tool prints on standard error.
 #pragma once
 
 #include <string>
@@ -8,14 +8,16 @@ namespace bvhio {
 
 enum class LogLevel { quiet, normal, verbose };
 
-/// Starts every line with "<tool>: ". Until this is called the level is normal.
+/// Every line starts with "<tool>: ". The level is normal until it is set.
 void startLog(const std::string& tool);
 void setLogLevel(LogLevel level);
+/// Whether lines of logInfo are shown.
+bool isVerbose();
 
-/// Always shown, one line whatever the message holds: control characters become '?'.
+/// Always shown, as one line: control characters of the message become '?'.
 void logError(std::string_view message);
-/// Not shown with -q.
-void logWarning(std::string_view message);
+/// Begins with "note: ". Not shown with -q.
+void logNote(std::string_view message);
 /// Shown with -v.
 void logInfo(std::string_view message);
 

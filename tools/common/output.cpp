@@ -1,6 +1,7 @@
 #include "common/output.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -17,8 +18,8 @@
 namespace bvhio {
 namespace {
 
-// What a signal handler removes: fixed memory, since a handler may not allocate. A path is written before its
-// flag is set.
+// The files that a signal handler removes, in fixed memory because a handler may not allocate. A path is
+// written before its flag is set.
 struct Temporary {
     std::atomic<bool> used{false}, exists{false};
     char path[PATH_MAX];
@@ -38,16 +39,16 @@ int reserveSlot() {
     throw Error(ErrorKind::resources, "too many output files at once");
 }
 
-/// Where the process's outputs go: final paths, and "-".
+/// The places of the process's outputs: final paths, and "-".
 std::set<std::string>& placesTaken() {
     static std::set<std::string> places;
     return places;
 }
 
-/// One spelling for each file.
+/// The one spelling of a path that all paths to the same file share.
 std::string placeOf(const std::string& finalPath) {
     std::error_code error;
-    // Absolute first: of a relative path to no file yet, the canonical form would stay relative.
+    // Absolute first: the canonical form of a relative path to a file that does not exist stays relative.
     const auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(finalPath, error), error);
     return error ? finalPath : place.string();
 }
@@ -58,7 +59,7 @@ void removeTemporariesOnSignals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction action {};
         sigaction(signal, nullptr, &action);
-        if (action.sa_handler == SIG_IGN) continue;  // as nohup and background shells want it
+        if (action.sa_handler == SIG_IGN) continue;  // nohup and background shells ask for that
         action.sa_handler = removeTemporariesAndDie;
         sigfillset(&action.sa_mask);
         action.sa_flags = 0;
@@ -66,7 +67,7 @@ void removeTemporariesOnSignals() {
     }
 }
 
-/// Tells the signal handler of an output's temporary file, as long as there is one.
+/// Registers an output's temporary file with the signal handler, as long as the file exists.
 class Output::Slot : public TemporaryWatcher {
   public:
     ~Slot() override {
@@ -88,7 +89,7 @@ Output::Output(const std::string& path, OutputKind kind) : name_(path == "-" ? "
     place_ = finalPath.empty() ? path : placeOf(finalPath);
     const bool isShared = path != "-" && finalPath.empty();  // devices take any number of outputs
     if (!isShared && !placesTaken().insert(place_).second)
-        throw Error(ErrorKind::usage, name_ + ": two outputs go there: name a file for each");
+        throw Error(ErrorKind::usage, name_ + ": is named for two outputs: name one file for each");
     if (!finalPath.empty()) {
         slot_ = std::make_unique<Slot>();
         safe_ = std::make_unique<SafeFile>(finalPath, name_, slot_.get());
@@ -96,14 +97,17 @@ Output::Output(const std::string& path, OutputKind kind) : name_(path == "-" ? "
     }
     const int file = path == "-" ? STDOUT_FILENO : open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (file < 0) throw Error(ErrorKind::io, name_ + ": cannot be written: " + std::strerror(errno));
-    if (kind == OutputKind::binary && isatty(file)) {
+    isTerminal_ = isatty(file) == 1;
+    struct stat status {};
+    isPipe_ = fstat(file, &status) == 0 && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
+    if (kind == OutputKind::binary && isTerminal_) {
         if (file != STDOUT_FILENO) close(file);
         throw Error(ErrorKind::usage,
                     name_ + ": is a terminal, and the output is binary: use -o FILE or a pipe");
     }
     buffer_ = std::make_unique<FileBuffer>(file, name_);
     stream_ = std::make_unique<std::ostream>(buffer_.get());
-    stream_->exceptions(std::ios::badbit);  // so that what the buffer throws reaches the caller
+    stream_->exceptions(std::ios::badbit);  // so that exceptions of the buffer reach the caller
 }
 
 Output::~Output() {

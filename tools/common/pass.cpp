@@ -1,9 +1,8 @@
 #include "common/pass.h"
 
-#include <sys/resource.h>
-
 #include "common/input.h"
 #include "common/log.h"
+#include "common/machine.h"
 #include "core/parallel.h"
 #include "stats/tree_stats.h"
 
@@ -12,26 +11,27 @@ namespace bvhio {
 Pass::Pass(CommandLine& line, const std::string& inputName, const std::string& inputHelp) : line_(line) {
     line.beginPlumbing();
     line.positional(inputName, input_, inputHelp);
-    line.text("-o,--output", "FILE", outputPath_, "where the container goes (default -: standard output)");
-    line.text("--report", "FILE", reportPath_, "write what was done as JSON; -: standard output");
+    line.path("-o,--output", "FILE", outputPath_, "file for the container; -: standard output");
+    line.path("--report", "FILE", reportPath_, "file for a report as JSON; -: standard output");
+    line.suggestForExtra("-o");
     line.parse();
     refuseTerminalInput(input_);
     if (reportPath_ == "-" && outputPath_ == "-")
-        throw Error(ErrorKind::usage, "--report: standard output is taken by the container: use -o FILE");
+        throw Error(ErrorKind::usage, "--report: the container goes to standard output: use -o FILE");
     output_.emplace(outputPath_, OutputKind::binary);
     if (!reportPath_.empty()) report_.emplace(reportPath_, OutputKind::text);
     stages_.emplace(line.tool(), line.progressMode());
 }
 
 BvhxFile Pass::read(const std::string& path) {
-    stages_->begin("read");
-    BvhxFile file = readBvhx(path);
+    stages_->begin("read", readingKind(path));
+    BvhxFile file = readContainer(path);
     sahBefore_ = sahCost(file.scene, file.bvh, file.costs);
     return file;
 }
 
 void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string& work, const Report& extra) {
-    stages_->begin("write");
+    stages_->begin("write", output_->isPipe() ? StageKind::waiting : StageKind::working);
     const Report recorded = options_ ? *options_ : line_.options();
     file.provenance.push_back({line_.tool(), std::string(toolsVersion()), jsonText(recorded)});
     const std::optional<EncodedBvh> refitted = writeBvhx(output_->stream(), file, options);
@@ -52,12 +52,6 @@ void Pass::finish(BvhxFile& file, const WriteOptions& options, const std::string
     report.update(extra);
     report_->stream() << jsonText(report, 2) << '\n';
     report_->commit();
-}
-
-uint64_t peakBytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return uint64_t(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
 }  // namespace bvhio

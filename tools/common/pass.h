@@ -1,4 +1,4 @@
-// The frame of a tool that writes a container: its options, its stages, its provenance and its report.
+// The common part of tools that write a container: options, stages, provenance and report.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace bvhio {
 
-/// Declare the tool's own options first; Pass adds INPUT, -o and --report and parses. Then call read (a pass
-/// over containers), work, and finish.
+/// Declare the tool's own options first; Pass adds INPUT, -o and --report, and parses. Then call read (in a
+/// pass over containers), do the work, and call finish.
 class Pass {
   public:
     Pass(CommandLine& line, const std::string& inputName, const std::string& inputHelp);
@@ -22,13 +22,13 @@ class Pass {
     /// Whether a report is wanted.
     bool reports() const { return report_.has_value(); }
     ProgressBar& stages() { return *stages_; }
-    /// Reads the container that is INPUT, or another, and notes its cost, the report's sah_before.
+    /// Reads the container INPUT, or another one, and keeps its cost, the report's sah_before.
     BvhxFile read() { return read(input_); }
     BvhxFile read(const std::string& path);
-    /// What provenance and report say instead of the command line's options, where not all had a part.
+    /// Sets what provenance and report have as the options, where that is not all of the command line's.
     void recordOptions(const Report& options) { options_ = options; }
-    /// Adds the tool's provenance, writes the container and then the report. `work` names the stage whose
-    /// time is the report's `seconds`; `extra` joins the report.
+    /// Adds the tool's provenance, then writes the container and the report. `work` names the stage whose time
+    /// is the report's `seconds`; `extra` is added to the report.
     void finish(BvhxFile& file, const WriteOptions& options, const std::string& work,
                 const Report& extra = Report::object());
 
@@ -40,8 +40,5 @@ class Pass {
     std::optional<double> sahBefore_;
     std::optional<Report> options_;
 };
-
-/// The most memory the process has had, in bytes.
-uint64_t peakBytes();
 
 }  // namespace bvhio

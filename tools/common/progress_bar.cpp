@@ -36,11 +36,12 @@ ProgressBar::~ProgressBar() {
     watcher_.join();
 }
 
-void ProgressBar::begin(const std::string& stage) {
+void ProgressBar::begin(const std::string& stage, StageKind kind) {
     end();
     const std::lock_guard lock(mutex_);
     progress_.start(0);
     stage_ = stage;
+    kind_ = kind;
     stageStart_ = Clock::now();
     drawn_ = false;
 }
@@ -68,8 +69,11 @@ void ProgressBar::watch() {
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         wake_.wait_for(lock, kRedraw, [this] { return stopping_; });
-        if (stopping_ || stage_.empty() || elapsed() < kPatience) continue;
-        if (redrawn_ || !drawn_) draw(secondsSince(stageStart_));
+        if (stopping_ || stage_.empty()) continue;
+        const double seconds = secondsSince(stageStart_);
+        const bool isShown = redrawn_ ? kind_ == StageKind::working && elapsed() >= kPatience
+                                      : !drawn_ && seconds >= kPatience;
+        if (isShown) draw(seconds);
     }
 }
 

@@ -1,4 +1,4 @@
-// Stages of a tool's work: timed, and shown on standard error while they last.
+// The stages of a tool's work: they are timed, and shown on standard error while they last.
 #pragma once
 
 #include <chrono>
@@ -15,15 +15,24 @@ namespace bvhio {
 
 enum class ProgressMode { automatic, always, never };
 
-/// Names the stage that runs. Work of over a second gets a line with its time, and a bar where the stage
-/// counts its progress; on a terminal the line is redrawn, elsewhere each stage that takes long gets one.
+/// How a stage is shown.
+enum class StageKind {
+    working,
+    /// The stage waits for another process at the other end of a pipe. On a terminal it draws nothing: that
+    /// process draws there.
+    waiting,
+};
+
+/// Shows the stage that runs: on a terminal, once the tool has run for a second, as a line that is redrawn
+/// with its time, and with a bar where the stage counts its progress; elsewhere as one line for each stage
+/// that has run for a second.
 class ProgressBar {
   public:
     ProgressBar(std::string tool, ProgressMode mode);
     ~ProgressBar();
 
     /// Ends the stage before, if any.
-    void begin(const std::string& stage);
+    void begin(const std::string& stage, StageKind kind = StageKind::working);
     void end();
     /// What the running stage counts.
     Progress& progress() { return progress_; }
@@ -45,8 +54,9 @@ class ProgressBar {
     std::vector<std::pair<std::string, double>> stages_;
     Progress progress_;
 
-    std::mutex mutex_;  // guards what the watching thread reads: the two below and the line on the terminal
+    std::mutex mutex_;  // guards what the watching thread reads: the members below, and the terminal's line
     std::string stage_;
+    StageKind kind_ = StageKind::working;
     bool drawn_ = false, stopping_ = false;
     std::condition_variable wake_;
     std::thread watcher_;

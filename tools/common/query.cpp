@@ -8,10 +8,10 @@ namespace bvhio {
 
 QueryTool::QueryTool(CommandLine& line) {
     line.beginPlumbing();
-    line.positional("INPUT", input_, "the container; - or nothing: standard input");
-    line.text("-o,--output", "FILE", outputPath_, "where the report goes (default -: standard output)");
-    line.choice("--format", format_, {{"table", "for people"}, {"json", "one JSON object"}},
-                "how the report is printed");
+    line.positional("INPUT", input_, "container; - or nothing: standard input");
+    line.path("-o,--output", "FILE", outputPath_, "file for the report; -: standard output");
+    line.choice("--format", format_, {{"table", "columns, for people"}, {"json", "one JSON object"}},
+                "format of the report");
     line.parse();
     refuseTerminalInput(input_);
     output_.emplace(outputPath_, OutputKind::text);
@@ -19,15 +19,15 @@ QueryTool::QueryTool(CommandLine& line) {
 }
 
 BvhxFile QueryTool::read() {
-    stages_->begin("read");
-    return readBvhx(input_);
+    stages_->begin("read", readingKind(input_));
+    return readContainer(input_);
 }
 
 BvhxFile QueryTool::readOther(const std::string& option, const std::string& path) {
     if (path == "-" && input_ == "-")
-        throw Error(ErrorKind::usage, option + ": standard input is INPUT already: name a file");
+        throw Error(ErrorKind::usage, option + ": standard input is already INPUT: name a file");
     refuseTerminalInput(path);
-    return readBvhx(path);
+    return readContainer(path);
 }
 
 void QueryTool::print(const Report& report) {
@@ -36,7 +36,7 @@ void QueryTool::print(const Report& report) {
         return;
     }
     Report shown = report;
-    shown.erase("options");  // who reads the table has just typed them
+    shown.erase("options");  // the reader of a table has just typed them
     printTable(out(), shown);
 }
 

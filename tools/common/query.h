@@ -1,4 +1,4 @@
-// The frame of a tool that reads a container and prints a report about it.
+// The common part of tools that read a container and print a report about it.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace bvhio {
 
-/// Declare the tool's own options first; QueryTool adds INPUT, -o and --format and parses.
+/// Declare the tool's own options first; QueryTool adds INPUT, -o and --format, and parses.
 class QueryTool {
   public:
     explicit QueryTool(CommandLine& line);
@@ -22,13 +22,14 @@ class QueryTool {
     bool isJson() const { return format_ == "json"; }
     ProgressBar& stages() { return *stages_; }
     BvhxFile read();
-    /// Reads the container that `option` names beside INPUT; standard input can't be both.
+    /// Reads the container that `option` names beside INPUT; only one of them may be standard input.
     BvhxFile readOther(const std::string& option, const std::string& path);
-    /// Where text goes that is no report.
+    /// For text that is not a report.
     std::ostream& out() { return output_->stream(); }
+    bool printsToTerminal() const { return output_->isTerminal(); }
     /// Prints the report, as a table or as one JSON object.
     void print(const Report& report);
-    /// Ends the output. What was printed is there only now.
+    /// Ends the output. Only now the text is complete in its file.
     void finish();
 
   private:
@@ -37,17 +38,17 @@ class QueryTool {
     std::optional<Output> output_;
 };
 
-/// A file beside the report, written only where its option names one; opened at once, so that a wrong path
-/// is found before the work.
+/// A file beside the report, written only where its option names one. It is opened at once, so that a wrong
+/// path is reported before the work.
 class OptionalOutput {
   public:
     explicit OptionalOutput(const std::string& path, OutputKind kind = OutputKind::binary) {
         if (!path.empty()) output_.emplace(path, kind);
     }
     explicit operator bool() const { return output_.has_value(); }
-    /// All of it at once; or through the stream, bit by bit, until commit().
+    /// Writes all of it at once. The stream takes it bit by bit, until commit().
     void write(std::span<const std::byte> bytes);
-    /// Writes what `writer` does to the stream.
+    /// Writes what `writer` writes to the stream.
     void write(const std::function<void(std::ostream&)>& writer);
     std::ostream& stream() { return output_->stream(); }
     void commit() { output_->commit(); }

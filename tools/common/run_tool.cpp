@@ -12,7 +12,7 @@ namespace bvhio {
 
 int runTool(const ToolInfo& tool, int argc, char** argv, const std::function<ExitCode(CommandLine&)>& body) {
     startLog(tool.name);
-    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), reported like any other
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is then an error of write(), reported as any other
     removeTemporariesOnSignals();
     try {
         CommandLine line(tool, argc, argv);
@@ -24,11 +24,11 @@ int runTool(const ToolInfo& tool, int argc, char** argv, const std::function<Exi
         return int(error.kind());
     } catch (const std::bad_alloc&) {
         logError("out of memory");
-        return int(ExitCode::resources);
+        return int(ErrorKind::resources);
     } catch (const std::exception& error) {
-        // Such as a thread that the system does not grant. Caught so that the outputs' temporary files go.
+        // For example a thread that the system does not start. Caught so that temporary files are removed.
         logError(std::string("cannot go on: ") + error.what());
-        return int(ExitCode::resources);
+        return int(ErrorKind::resources);
     }
 }
 

@@ -1,4 +1,4 @@
-// The frame of every tool: the one place that turns an exception into a line and an exit code.
+// The frame of every tool: the only place that turns an exception into a message and an exit code.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@
 
 namespace bvhio {
 
-/// Runs a tool's body, which declares its options on the command line, calls parse() and works. Returns what
-/// main returns: the body's code; 0 after --help or --version; an Error's kind, or 4 when memory or another
+/// Runs a tool's body, which declares its options on the command line, calls parse() and works. Returns the
+/// exit code: the body's own; 0 after --help or --version; an Error's kind, or 4 when memory or another
 /// resource ran out, after one line on standard error.
 int runTool(const ToolInfo& tool, int argc, char** argv, const std::function<ExitCode(CommandLine&)>& body);
 

@@ -6,7 +6,7 @@
 namespace bvhio {
 namespace {
 
-/// Levenshtein's distance: insertions, deletions and replacements from one word to the other.
+/// The Levenshtein distance: insertions, deletions and replacements from one word to the other.
 size_t editDistance(std::string_view a, std::string_view b) {
     std::vector<size_t> row(b.size() + 1);
     for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -26,7 +26,7 @@ size_t editDistance(std::string_view a, std::string_view b) {
 
 std::string_view nearestName(std::string_view word, std::span<const std::string_view> names) {
     std::string_view nearest;
-    size_t least = word.size() / 3 + 2;  // more changes than this make another word of it
+    size_t least = word.size() / 3 + 2;  // with more changes it is another word
     for (const std::string_view name : names) {
         const size_t distance = editDistance(word, name);
         if (distance < least && distance < name.size()) least = distance, nearest = name;

@@ -7,7 +7,7 @@
 
 namespace bvhio {
 
-/// The name that differs from `word` in the fewest letters, or "" when none is near enough to be what was
+/// The name that differs from `word` in the fewest letters, or "" when every name differs in too many to be
 /// meant.
 std::string_view nearestName(std::string_view word, std::span<const std::string_view> names);
 

@@ -1,4 +1,4 @@
-# Silence by default and with -q; stages with -v. Work of less than a second shows no progress.
+# Silence by default and with -q; with -v what was read, and stages. Work of less than a second shows no progress.
 cube >cube.obj
 bvh-build cube.obj -o cube.bvhx --progress always
 bvh-build cube.obj -o cube.bvhx -q

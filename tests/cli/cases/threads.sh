@@ -10,3 +10,13 @@ cmp 1.bvhx 100000.bvhx
 cmp 1.hits 2.hits
 cmp 1.txt 2.txt
 cmp 1.txt 100000.txt
+# The environment sets the number where -j does not; the report has the number that is really used.
+threads() {
+    bvh-trace 1.bvhx --count 100 --format json "$@" | json threads
+}
+BVHIO_THREADS=1 threads
+BVHIO_THREADS=100000 threads -j 1
+BVHIO_THREADS=many code bvh-stats 1.bvhx
+taskset -c "$(taskset -pc $$ | sed 's/.*: //; s/[-,].*//')" bash -c 'bvh-trace 1.bvhx --count 100 --format json' | json threads
+BVHIO_THREADS=1 bvh-build grid.obj --report report.json -o grid.bvhx
+json threads <report.json

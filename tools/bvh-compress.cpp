@@ -109,14 +109,14 @@ ExitCode compress(CommandLine& line) {
     FormOptions formOptions(line);
     FormSearch search(line);
     line.choice("--codec", codec, codecNames(), "what squeezes the chunks");
-    line.number("--level", level, 0, 22, "the codec's effort; 0: its own default");
+    line.number("--level", level, 0, 19,
+                "effort of the codec, 1 (fast) to 19 (small); 0: the codec's own default");
     line.choice("--geometry", geometry, kGeometries, "how the triangles are stored");
     line.number("--position-bits", positionBits, 1, 30, "bits a coordinate, for draco");
     line.choice("--triangle-order", triangleOrder, kTriangleOrders,
                 "which triangles stand beside each other");
     line.choice("--vertex-order", vertexOrder, kVertexOrders, "which vertices stand beside each other");
     line.beginPlumbing();
-    search.declareOutput(line);
     Pass pass(line, "INPUT", "the container; - or nothing: standard input");
     search.prepare(
         line, {"--codec", "--level", "--geometry", "--position-bits", "--triangle-order", "--vertex-order"});

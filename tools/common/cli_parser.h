@@ -126,7 +126,7 @@ struct CommandLine::Parser {
             const std::string what = "unexpected argument '" + extra + "': ";
             throw Error(ErrorKind::usage, what + (extra.ends_with(".bvhx") && !suggested.empty()
                                                       ? "use " + suggested + " " + extra
-                                                      : seeHelp));
+                                                      : "only one input is read: " + seeHelp));
         }
         const std::string given = extra.substr(0, extra.find('='));
         const std::vector<std::string> names = optionNames();

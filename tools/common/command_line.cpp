@@ -16,6 +16,12 @@ std::string shortest(float value) {
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+/// The number without an exponent, for messages: 1000000, not 1e+06.
+std::string decimal(float value) {
+    char text[64];
+    return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr};
+}
+
 }  // namespace
 
 std::string_view toolsVersion() {
@@ -58,8 +64,8 @@ void CommandLine::number(const std::string& names, float& value, float min, floa
         [=, &value](const std::string& text) {
             const auto number = parseNumber<float>(text);
             if (!number || !(*number >= min && *number <= max))
-                throw Error(ErrorKind::usage, name + ": '" + text + "' is not a number from " +
-                                                  shortest(min) + " to " + shortest(max));
+                throw Error(ErrorKind::usage, name + ": '" + text + "' is not a number from " + decimal(min) +
+                                                  " to " + decimal(max));
             value = *number + 0.0f;  // -0 is 0: files have no -0
         },
         [&value, min] { return value < min ? Report() : Report(*parseNumber<double>(shortest(value))); });

@@ -30,16 +30,13 @@ FormSearch::FormSearch(CommandLine& line) {
     count_ = defaults.rays;
     repeat_ = defaults.rounds;
     seed_ = defaults.seed;
-    line.number(kLimits[0], maxBytes_, 0, 1e6f, "choose the fastest form whose nodes take at most so much");
-    line.number(kLimits[1], maxSlowdown_, 0, 1e6f,
-                "choose the smallest form of at most so many times aabb's time");
-    line.number(kSample[0], count_, 1, kMaxRays, "of the search: rays of each set, at most");
-    line.number(kSample[1], repeat_, 1, 1000, "of the search: timed runs, of which the median counts");
-    line.number(kSample[2], seed_, 0, UINT64_MAX, "of the search: of rays that are random");
-}
-
-void FormSearch::declareOutput(CommandLine& line) {
-    line.text("--pareto", "FILE.csv", tablePath_, "measure every form, and write what they take and cost");
+    line.number(kLimits[0], maxBytes_, 0, 1e6f, "fastest form whose nodes take at most X bytes per triangle");
+    line.number(kLimits[1], maxSlowdown_, 0, 1e6f, "smallest form that is at most X times slower than aabb");
+    line.number(kSample[0], count_, 1, kMaxRays, "most rays per set in the search");
+    line.number(kSample[1], repeat_, 1, 1000, "timed runs in the search; their median counts");
+    line.number(kSample[2], seed_, 0, UINT64_MAX, "seed of the search's random rays");
+    line.path("--pareto", "FILE.csv", tablePath_,
+              "table of the bytes and the time of every form, which the search measures for it");
 }
 
 void FormSearch::prepare(const CommandLine& line, const std::vector<std::string>& others) {

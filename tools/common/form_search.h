@@ -11,11 +11,10 @@
 
 namespace bvhio {
 
-/// Declare with the tool's own options; then declareOutput, parse, prepare, search.
+/// Declare with the tool's own options; then parse, prepare, search.
 class FormSearch {
   public:
     explicit FormSearch(CommandLine& line);
-    void declareOutput(CommandLine& line);
     /// Refuses options that exclude each other, and opens the table's file. `others` are options that have
     /// nothing to do with how nodes are stored: those that do are what the search chooses.
     void prepare(const CommandLine& line, const std::vector<std::string>& others);

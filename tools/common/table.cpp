@@ -28,7 +28,7 @@ std::string valueText(const Report& value) {
     return list.empty() ? "-" : list;
 }
 
-/// An object whose keys are numbers: how many of each.
+/// Whether the value is an object whose keys are numbers: how many there are of each.
 bool isHistogram(const Report& value) {
     return value.is_object() && !value.empty() &&
            value.begin().key().find_first_not_of("0123456789") == std::string::npos;
@@ -38,7 +38,7 @@ bool isListOfObjects(const Report& value) {
     return value.is_array() && (value.empty() || value[0].is_object());
 }
 
-/// The values and the lists of objects in a report, by their paths.
+/// Collects the values and the lists of objects in a report, with their paths.
 void flatten(const Report& report, const std::string& prefix, Rows& values, Rows& lists) {
     for (const auto& [key, value] : report.items()) {
         if (value.is_object() && !isHistogram(value))
@@ -48,7 +48,7 @@ void flatten(const Report& report, const std::string& prefix, Rows& values, Rows
     }
 }
 
-/// Each cell as wide as its column's widest, but for the last.
+/// Prints rows with each cell as wide as the widest one of its column, except the last cell.
 void printColumns(std::ostream& out, const std::vector<std::vector<std::string>>& rows) {
     std::vector<size_t> widths;
     for (const auto& row : rows)

@@ -1,4 +1,4 @@
-// Reports as text for people.
+// Reports as text, for people.
 #pragma once
 
 #include <ostream>
@@ -8,9 +8,9 @@
 
 namespace bvhio {
 
-/// One line for each value, "key  value" in columns; a key within an object is "object.key". Objects whose
-/// keys are numbers, and arrays of plain values, are histograms or lists and take one line. Arrays of objects
-/// follow as tables of their own.
+/// Prints one line for each value, "key  value" in columns; a key within an object is "object.key". An object
+/// whose keys are numbers (a histogram) and an array of plain values take one line each. Arrays of objects
+/// follow as separate tables.
 void printTable(std::ostream& out, const Report& report);
 
 }  // namespace bvhio

@@ -18,3 +18,8 @@ for tool in build restructure relayout compress trace stats; do
     bvh-$tool --help | awk -v tool=$tool 'length > 110 { print tool ": " $0 }'
     bvh-$tool --help | sed -n '/^Input and output/,$d; s/^  \(--report\|--output\|--progress\).*/\1 is among the options/p'
 done
+# What belongs to bvh-compress' search stands with it, and a level has one range in --help and in its error.
+bvh-compress --help | sed -n '/^Input and output/,$d; s/^  \(--pareto\|--max-slowdown\).*/\1/p'
+bvh-compress --help | grep -A1 -- '^  --level' | tr -s ' \n' ' ' | grep -o 'effort.*small)'
+cube | bvh-build -o cube.bvhx
+code bvh-compress cube.bvhx --level 20

@@ -17,6 +17,5 @@ threads() {
 BVHIO_THREADS=1 threads
 BVHIO_THREADS=100000 threads -j 1
 BVHIO_THREADS=many code bvh-stats 1.bvhx
-taskset -c "$(taskset -pc $$ | sed 's/.*: //; s/[-,].*//')" bash -c 'bvh-trace 1.bvhx --count 100 --format json' | json threads
 BVHIO_THREADS=1 bvh-build grid.obj --report report.json -o grid.bvhx
 json threads <report.json

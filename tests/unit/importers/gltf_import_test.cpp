@@ -414,7 +414,8 @@ TEST(Gltf, refusesWhatReachesOutOfBounds) {
               std::string::npos);
     EXPECT_NE(refusal(R"({"asset":{"version":"1.0"}})", "x.gltf", ErrorKind::unsupported).find("glTF 1.0"),
               std::string::npos);
-    EXPECT_NE(refusal(std::string(100000, '['), "x.gltf").find("begin"), std::string::npos);
+    EXPECT_NE(refusal(std::string(100000, '['), "x.gltf").find("is not that of a .gltf file"),
+              std::string::npos);
     EXPECT_NE(refusal(R"({"a":)" + std::string(100000, '['), "x.gltf").find("levels deep"),
               std::string::npos);
     for (const char* odd : {R"({"asset":{"version":"2.0"},"a":1e999})", R"({"asset":["2.0"]})",

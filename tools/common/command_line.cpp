@@ -1,7 +1,6 @@
 #include "common/command_line.h"
 
 #include <cstdio>
-#include <thread>
 #include <utility>
 
 #include "common/cli_parser.h"
@@ -171,8 +170,10 @@ void CommandLine::parse() {
     progressMode_ = quiet || progress == "never" ? ProgressMode::never
                     : progress == "always"       ? ProgressMode::always
                                                  : ProgressMode::automatic;
-    const uint32_t machine = std::max(1u, std::thread::hardware_concurrency());
-    parser_->threadLimit = std::make_unique<ThreadLimit>(std::min(threads == 0 ? machine : threads, machine));
+    // Without a limit, parallel code uses all processors that the process may use: affinity can exclude some.
+    const size_t available = threadCount();
+    parser_->threadLimit =
+        std::make_unique<ThreadLimit>(threads == 0 ? available : std::min<size_t>(threads, available));
 }
 
 std::vector<std::string> CommandLine::given() const {

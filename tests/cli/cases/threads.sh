@@ -17,5 +17,7 @@ threads() {
 BVHIO_THREADS=1 threads
 BVHIO_THREADS=100000 threads -j 1
 BVHIO_THREADS=many code bvh-stats 1.bvhx
+taskset -c "$(taskset -pc $$ | sed 's/.*: //; s/[-,].*//')" bvh-trace 1.bvhx -j 8 --count 100 --format json | json threads
+taskset -c "$(taskset -pc $$ | sed 's/.*: //; s/[-,].*//')" bvh-trace 1.bvhx --count 100 --format json | json threads
 BVHIO_THREADS=1 bvh-build grid.obj --report report.json -o grid.bvhx
 json threads <report.json

@@ -28,6 +28,9 @@ uint64_t ContentHash::value() const {
 
 ContainerWriter::ContainerWriter(std::ostream& out, const Codec& codec, int level)
     : out_(out), codec_(codec), level_(level == 0 ? codec.function.defaultLevel : level) {
+    if (level_ != 0 && codec.function.maxLevel == 0)
+        throw Error(ErrorKind::usage,
+                    "codec " + std::string(codec.name) + " has no levels: leave the level out");
     if (level_ < codec.function.minLevel || level_ > codec.function.maxLevel)
         throw Error(ErrorKind::usage, "codec " + std::string(codec.name) + " has no level " +
                                           std::to_string(level_) + ": use " +

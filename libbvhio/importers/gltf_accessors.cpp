@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/plural.h"
 
 namespace bvhio {
 
@@ -140,9 +141,9 @@ GltfAccessors::Elements GltfAccessors::elements(int accessor, int components) {
                           (source.byteOffset <= available && size <= available - source.byteOffset &&
                            (result.count - 1) <= (available - source.byteOffset - size) / result.stride);
         if (!fits)
-            throw Error(ErrorKind::invalid, where(accessor) + ": its " + std::to_string(result.count) +
-                                                " elements reach beyond buffer view " +
-                                                std::to_string(source.bufferView));
+            throw Error(ErrorKind::invalid, where(accessor) + ": buffer view " +
+                                                std::to_string(source.bufferView) + " is too small for its " +
+                                                counted(result.count, "element"));
         if (result.count > 0) result.data = result.data.subspan(source.byteOffset);
     }
     return result;

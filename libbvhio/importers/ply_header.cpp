@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/plural.h"
 #include "importers/text_cursor.h"
 
 namespace bvhio {
@@ -109,8 +110,8 @@ PlyHeader readPlyHeader(std::span<const std::byte> bytes, const std::string& nam
         const uint64_t each =
             header.format == PlyFormat::ascii ? 2 * element.properties.size() : uint64_t(element.minBytes());
         if (each > 0 && element.count > (bytesLeft + 1) / each)
-            throw Error(ErrorKind::invalid, name + ": the header claims " + std::to_string(element.count) +
-                                                " elements '" + element.name +
+            throw Error(ErrorKind::invalid, name + ": the header claims " +
+                                                counted(element.count, "element") + " '" + element.name +
                                                 "', more than the file can hold: it is cut short or damaged");
         if (each == 0 && element.count > 0 && header.format != PlyFormat::ascii) continue;
         bytesLeft -= std::min(bytesLeft, element.count * each);

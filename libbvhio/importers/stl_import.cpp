@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/plural.h"
 #include "importers/mesh_import.h"
 #include "importers/text_cursor.h"
 
@@ -26,8 +27,8 @@ void readBinary(std::span<const std::byte> bytes, Mesh& mesh) {
     const uint64_t count = claimedTriangles(bytes);
     const uint64_t held = (bytes.size() - kHeaderBytes) / kTriangleBytes;
     if (count > held)
-        throw Error(ErrorKind::invalid, mesh.name + ": the STL header claims " + std::to_string(count) +
-                                            " triangles, but the file ends after " + std::to_string(held));
+        throw Error(ErrorKind::invalid, mesh.name + ": the STL header claims " + counted(count, "triangle") +
+                                            ", but the file ends after " + std::to_string(held));
     mesh.vertices.resize(3 * count);
     mesh.triangles.resize(count);
     for (uint64_t i = 0; i < count; ++i) {

@@ -26,6 +26,7 @@ code bvh-restructure cube.bvhx --method tr --no-collapse --max-leaf-size 2
 code bvh-relayout cube.bvhx --layout dsf
 code bvh-relayout cube.bvhx --layout bfs --threshold 0.5
 code bvh-compress cube.bvhx --codec zsdt
+code bvh-compress cube.bvhx --codec none --level 3 -o none.bvhx
 code bvh-compress cube.bvhx --geometry rew
 code bvh-compress cube.bvhx --form ssh --codec topology
 code bvh-compress cube.bvhx --form ssh --bits 6

@@ -39,6 +39,17 @@ grid() {
     }'
 }
 
+# The names that an option takes, read from the tool's own help, so that new rows of tables are tested as they come.
+choices() { # TOOL OPTION
+    local names
+    names=$("$1" --help | awk -v option="$2" '
+        $1 == option { listing = 1; next }
+        !/^            / { listing = 0 }
+        listing { print $1 }')
+    [ -n "$names" ] || echo "$1 --help lists no names for $2" >&2
+    echo "$names"
+}
+
 # Says how a command ended; its output goes on. For cases with several.
 code() {
     local code=0

@@ -6,7 +6,7 @@ stats() {
     for name in "$@"; do bvh-stats $name.bvhx --check --no-epo --format json >$name.json; done
 }
 stats tree restructured direct
-for form in $(bvh-compress --help | sed -n '/--form/,/^  -/s/^ \{36\}\([a-z0-9-]*\)  .*/\1/p'); do
+for form in $(choices bvh-compress --form); do
     bvh-compress tree.bvhx --form "$form" -o compact.bvhx
     bvh-compress compact.bvhx --form aabb -o decoded.bvhx
     bvh-compress compact.bvhx --form ssh -o detour.bvhx

@@ -2,7 +2,7 @@
 grid 12 >grid.obj
 awk '/^v/ { $3 += sin($2 * $4) * 3; $2 *= 1.5 } { print }' grid.obj >moved.obj
 bvh-build moved.obj -o anew.bvhx
-for form in $(bvh-compress --help | sed -n '/--form/,/--mvh-build/s/^ \{36\}\([a-z0-9-]*\)  .*/\1/p'); do
+for form in $(choices bvh-compress --form); do
     bvh-build grid.obj --builder sweep | bvh-compress --form "$form" -o old.bvhx
     bvh-build moved.obj --refit old.bvhx -o refitted.bvhx --report report.json
     bvh-stats refitted.bvhx --check

@@ -103,7 +103,8 @@ EncodedBvh built(const Scene& scene, const Builder& builder, const BuildOptions&
 
 /// A tree for each mesh, and one over their instances.
 EncodedBvh builtInstanced(const Scene& scene, const Builder& builder, const BuildOptions& options) {
-    return TwoLevelForm::encodeInstances(scene, buildInstanced(scene, builder, options), exactLevels());
+    return TwoLevelForm::encodeInstances(scene, buildInstanced(scene, builder, options),
+                                         TwoLevelForm::exactLevels());
 }
 
 ExitCode build(CommandLine& line) {

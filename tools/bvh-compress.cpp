@@ -17,7 +17,7 @@ const ToolInfo kTool = {
     "Stores a container's tree in another form, and squeezes its chunks.",
     "  bvh-compress scene.bvhx --codec zstd -o small.bvhx\n"
     "  bvh-compress scene.bvhx --codec topology -o smaller.bvhx\n"
-    "  bvh-compress scene.bvhx --form quantized --record-bytes 8 -o small.bvhx\n"
+    "  bvh-compress scene.bvhx --form quantized-short -o small.bvhx\n"
     "  bvh-compress scene.bvhx --form two-level --blas-form ssh --blas-size 32 -o two-level.bvhx\n"
     "  bvh-compress scene.bvhx --max-slowdown 1.2 --pareto forms.csv -o compact.bvhx\n"
     "  bvh-compress scene.bvhx --geometry draco --position-bits 14 -o rounded.bvhx\n",
@@ -28,28 +28,36 @@ const std::vector<NamedValue> kGeometries = {
     {"draco", "vertices rounded to a grid; boxes follow, and triangles keep their ids"},
 };
 
+/// What the command line asks for, but for the options of forms.
+struct Choices {
+    std::string form;  // empty: as suits the file
+    std::string codec = "zstd", geometry = "raw", triangleOrder = "source", vertexOrder = "auto";
+    uint32_t level = 0, positionBits = 16;
+
+    /// --codec topology is zstd, and nodes without boxes.
+    bool isTopology() const { return codec == "topology"; }
+};
+
+const FormTraits& traitsOf(std::string_view form) {
+    return choose(forms(), "form", form).function.traits;
+}
+
 /// The file's tree with the boxes that it is about: those of a compact form are larger.
 Bvh exactTree(const BvhxFile& file) {
     const Bvh bvh = decode(file.bvh);
-    return std::holds_alternative<AabbForm>(file.bvh) ? bvh : withExactBoxes(file.scene, bvh);
+    return traitsOf(file.bvh).isExact ? bvh : withExactBoxes(file.scene, bvh);
 }
 
-/// What `form` is made from: boxes as the file's form has them for aabb, which decodes; else exact ones, so
-/// that they do not grow from one compact form to the next.
+/// What `form` is made from: boxes as the file's form has them for an exact form, which decodes; else exact
+/// ones, so that they do not grow from one compact form to the next.
 Bvh treeFor(std::string_view form, const BvhxFile& file) {
-    return form == AabbForm::kName ? decode(file.bvh) : exactTree(file);
-}
-
-bool isInClusters(const EncodedBvh& bvh) {
-    const auto* aabb = std::get_if<AabbForm>(&bvh);
-    return std::holds_alternative<QuantizedShortForm>(bvh) || (aabb != nullptr && !aabb->bvh().slots.empty());
+    return traitsOf(form).isExact ? decode(file.bvh) : exactTree(file);
 }
 
 /// Whether the nodes are as bvh-build leaves them: all with full boxes.
 bool isPlain(const EncodedBvh& bvh) {
-    const EncodeOptions options = optionsOf(bvh);
-    return std::holds_alternative<AabbForm>(bvh) ||
-           (isInstanced(bvh) && options.tlasForm == TlasForm::aabb && options.blasForm == BlasForm::aabb);
+    return traitsOf(bvh).isExact ||
+           (isInstanced(bvh) && optionsOf(bvh) == EncodeOptions(TwoLevelForm::exactLevels()));
 }
 
 /// The codecs of chunks, and one that squeezes the nodes of the aabb form as well.
@@ -81,104 +89,135 @@ void orderTrianglesByLeaves(BvhxFile& file) {
     file.unknownChunks.clear();  // they may know triangles by their old indices
 }
 
-/// Stores both levels of an instanced scene's trees in other forms.
-void encodeInstances(BvhxFile& file, std::string_view form, const EncodeOptions& options, bool cuts) {
-    if (form != TwoLevelForm::kName)
+void declareStorage(CommandLine& line, Choices& choices) {
+    line.choice("--codec", choices.codec, codecNames(), "what squeezes the chunks");
+    line.number("--level", choices.level, 0, 19,
+                "effort of the codec, 1 (fast) to 19 (small); 0: the codec's own default");
+    line.choice("--geometry", choices.geometry, kGeometries, "how the triangles are stored");
+    line.number("--position-bits", choices.positionBits, 1, 30, "bits a coordinate, for draco");
+    line.choice("--triangle-order", choices.triangleOrder, kTriangleOrders,
+                "which triangles stand beside each other");
+    line.choice("--vertex-order", choices.vertexOrder, kVertexOrders,
+                "which vertices stand beside each other");
+}
+
+/// Boxes can be left out of a file where they can be fitted again.
+void settleTopology(Choices& choices, const FormSearch& search) {
+    if (!choices.isTopology()) return;
+    if (choices.form.empty()) choices.form = forms()[0].name;
+    if (!traitsOf(choices.form).isExact || search.choosesForm())
         throw Error(ErrorKind::usage,
-                    "--form " + std::string(form) +
-                        ": the scene has instances: use two-level, or build without --two-level");
+                    "--codec topology: only --form aabb has boxes that fit again: use --codec zstd");
+}
+
+/// Measures the forms, and puts the one that suits best on the command line. False, with a line on standard
+/// error, when a limit asks for one and none keeps it.
+bool searchForm(FormSearch& search, CommandLine& line, const std::string& form, const BvhxFile& file,
+                Progress& progress) {
+    const bool onlyForm = search.choosesForm() && line.isGiven("--form");
+    const TunedEncoding* chosen = search.search(file.scene, exactTree(file), onlyForm ? form : "", progress);
+    if (search.choosesForm() && chosen == nullptr) {
+        logError(search.refusal());
+        return false;
+    }
+    if (chosen != nullptr) search.assignTo(line);
+    return true;
+}
+
+/// Settles the form where none was asked for, and returns the options that are to be when none are given. A
+/// compact form stays what it is.
+EncodeOptions settleForm(std::string& form, const BvhxFile& file) {
+    const bool isInstanced = file.scene.isInstanced();
+    if (form.empty() && !isPlain(file.bvh)) {
+        form = formNameOf(file.bvh);
+        return optionsOf(file.bvh);
+    }
+    if (form.empty()) form = isInstanced ? TwoLevelForm::kName : QuantizedForm::kName;
+    if (isInstanced && traitsOf(form).holdsInstances)
+        return TwoLevelForm::Options{.blasForm = BlasForm::quantized};  // for large trees mvh is slow
+    return {};
+}
+
+/// Stores both levels of an instanced scene's trees in other forms.
+void encodeInstances(BvhxFile& file, const std::string& form, const EncodeOptions& options, bool cuts) {
+    if (!traitsOf(form).holdsInstances)
+        throw Error(ErrorKind::usage, "--form " + form +
+                                          ": the scene has instances: use two-level, or build without "
+                                          "--two-level");
     if (cuts)
         throw Error(ErrorKind::usage,
                     "--blas-size: the scene has instances, whose meshes are BLASes whole: leave it out");
-    const EncodeOptions given = optionsOf(file.bvh), exact = exactLevels();
+    const EncodeOptions given = optionsOf(file.bvh), exact = TwoLevelForm::exactLevels();
     if (given == options) return;
     InstancedBvh trees = std::get<TwoLevelForm>(file.bvh).decodeInstances(file.scene);
     if (given != exact && options != exact)
         trees = mapTrees(file.scene, trees, [](const Scene& scene, const Bvh& tree, bool) {
             return withExactBoxes(scene, tree);
         });
-    file.bvh = TwoLevelForm::encodeInstances(file.scene, trees, options);
+    file.bvh = TwoLevelForm::encodeInstances(file.scene, trees, optionsFor<TwoLevelForm>(options));
     dropChunksThatDoNotSurvive(file, Change::reordered);
 }
 
+/// Stores the tree in another form, unless it is so already.
+void encodeTree(BvhxFile& file, const std::string& form, const EncodeOptions& options) {
+    if (formNameOf(file.bvh) == form && optionsOf(file.bvh) == options) return;
+    const FormMethod& method = choose(forms(), "form", form).function;
+    const Bvh bvh = treeFor(form, file);
+    if (method.traits.putsInClusters && bvh.slots.empty())
+        logInfo("the tree is put in clusters as bvh-relayout --layout clusters does");
+    if (method.traits.buildsOwnTree) logInfo(form + " builds a tree of its own from the triangles");
+    file.bvh = method(file.scene, bvh, options);
+    dropChunksThatDoNotSurvive(file, Change::reordered);
+}
+
+WriteOptions writeOptionsFor(const Choices& choices) {
+    WriteOptions options;
+    options.codec = choices.isTopology() ? "zstd" : choices.codec;
+    options.nodes = choices.isTopology() ? NodeEncoding::topology : NodeEncoding::plain;
+    options.codecLevel = int(choices.level);
+    options.geometry = choices.geometry == "draco" ? GeometryEncoding::draco : GeometryEncoding::raw;
+    options.dracoPositionBits = int(choices.positionBits);
+    options.dracoVertices = choices.vertexOrder == "auto" ? VertexOrder::smaller : VertexOrder::kept;
+    return options;
+}
+
 ExitCode compress(CommandLine& line) {
-    std::string form, codec = "zstd", geometry(kGeometries[0].name), triangleOrder(kTriangleOrders[0].name),
-                      vertexOrder(kVertexOrders[0].name);
-    uint32_t level = 0, positionBits = 16;
+    Choices choices;
+    std::string& form = choices.form;
     line.choice("--form", form, namedValues(forms()), "how nodes are stored");
     FormOptions formOptions(line);
+    line.dropped("--record-bytes", "--form quantized-short for records of 8 bytes, --form quantized for 16");
     FormSearch search(line);
-    line.choice("--codec", codec, codecNames(), "what squeezes the chunks");
-    line.number("--level", level, 0, 19,
-                "effort of the codec, 1 (fast) to 19 (small); 0: the codec's own default");
-    line.choice("--geometry", geometry, kGeometries, "how the triangles are stored");
-    line.number("--position-bits", positionBits, 1, 30, "bits a coordinate, for draco");
-    line.choice("--triangle-order", triangleOrder, kTriangleOrders,
-                "which triangles stand beside each other");
-    line.choice("--vertex-order", vertexOrder, kVertexOrders, "which vertices stand beside each other");
+    declareStorage(line, choices);
     line.beginPlumbing();
     Pass pass(line, "INPUT", "the container; - or nothing: standard input");
+
+    // What can be refused is refused before the file is read.
     search.prepare(
         line, {"--codec", "--level", "--geometry", "--position-bits", "--triangle-order", "--vertex-order"});
+    settleTopology(choices, search);
+    if (!form.empty()) formOptions.check(form);
 
-    const bool topology = codec == "topology";
-    if (topology && form.empty()) form = AabbForm::kName;
-    if (topology && (form != AabbForm::kName || search.choosesForm()))
-        throw Error(ErrorKind::usage,
-                    "--codec topology: only --form aabb has boxes that fit again: use --codec zstd");
-    // What suits BLASes is known when it is known whether they are meshes.
-    if (!form.empty() && form != TwoLevelForm::kName) formOptions.check(form, {});
     BvhxFile file = pass.read();
-    // A compact form stays what it is, unless told otherwise.
-    const bool stays = form.empty() && !search.choosesForm() && !isPlain(file.bvh);
-    if (form.empty() && !search.choosesForm())
-        form = stays                   ? formNameOf(file.bvh)
-               : isInstanced(file.bvh) ? TwoLevelForm::kName
-                                       : QuantizedForm::kName;
     Report extra = Report::object();
     if (search.isWanted()) {
         pass.stages().begin("search");
-        const bool onlyForm = search.choosesForm() && line.isGiven("--form");
-        const TunedEncoding* chosen =
-            search.search(file.scene, exactTree(file), onlyForm ? form : "", pass.stages().progress());
-        if (search.choosesForm() && chosen == nullptr) {
-            logError(search.refusal());
-            return ExitCode::findings;
-        }
-        if (chosen != nullptr) search.assignTo(line);
+        if (!searchForm(search, line, form, file, pass.stages().progress())) return ExitCode::findings;
         extra["search"] = search.report();
     }
-    EncodeOptions defaults = stays ? optionsOf(file.bvh) : EncodeOptions{};
-    if (!stays && file.scene.isInstanced())
-        defaults.blasForm = BlasForm::quantized;  // for large trees mvh is slow
-    formOptions.check(form, defaults);
-    const bool isShort = form == QuantizedForm::kName && formOptions.isShort(isInClusters(file.bvh));
-    EncodeOptions encoding = formOptions.fill(form, defaults);
-    if (isShort) {
-        form = QuantizedShortForm::kName;
-        encoding.bits = EncodeOptions{}.bits;
-    }
+    const EncodeOptions defaults = settleForm(form, file);
+    formOptions.check(form);
+    const EncodeOptions options = formOptions.fill(form, defaults);
     pass.recordOptions(search.recordedOptions(line));
+
     pass.stages().begin("compress");
-    if (file.scene.isInstanced()) {
-        encodeInstances(file, form, encoding, line.isGiven("--blas-size"));
-    } else if (formNameOf(file.bvh) != form || optionsOf(file.bvh) != encoding) {
-        if (form == QuantizedShortForm::kName && !isInClusters(file.bvh))
-            logInfo("the tree is put in clusters as bvh-relayout --layout clusters does");
-        if (form == MvhForm::kName) logInfo("mvh builds a tree of its own from the triangles");
-        file.bvh = choose(forms(), "form", form).function(file.scene, treeFor(form, file), encoding);
-        dropChunksThatDoNotSurvive(file, Change::reordered);
-    }
-    if (triangleOrder == "leaf") orderTrianglesByLeaves(file);
-    if (vertexOrder == "use") file.scene = withVerticesByUse(file.scene);
-    WriteOptions options;
-    options.codec = topology ? "zstd" : codec;
-    options.nodes = topology ? NodeEncoding::topology : NodeEncoding::plain;
-    options.codecLevel = int(level);
-    options.geometry = geometry == "draco" ? GeometryEncoding::draco : GeometryEncoding::raw;
-    options.dracoPositionBits = int(positionBits);
-    options.dracoVertices = vertexOrder == "auto" ? VertexOrder::smaller : VertexOrder::kept;
-    pass.finish(file, options, "compress", extra);
+    if (file.scene.isInstanced())
+        encodeInstances(file, form, options, line.isGiven("--blas-size"));
+    else
+        encodeTree(file, form, options);
+    if (choices.triangleOrder == "leaf") orderTrianglesByLeaves(file);
+    if (choices.vertexOrder == "use") file.scene = withVerticesByUse(file.scene);
+    pass.finish(file, writeOptionsFor(choices), "compress", extra);
     return ExitCode::done;
 }
 

@@ -57,7 +57,7 @@ ExitCode restructure(CommandLine& line) {
     options.costs = file.costs;
     options.recordCosts = pass.reports();
     options.progress = &pass.stages().progress();
-    const bool isExact = std::holds_alternative<AabbForm>(file.bvh);
+    const bool isExact = traitsOf(file.bvh).isExact;
     Report iterations = Report::array();
     double seconds = 0, bytesPerNode = 0;
     changeTrees(file, [&](const Scene& scene, const Bvh& given, bool isTop) {

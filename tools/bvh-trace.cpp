@@ -172,11 +172,11 @@ Report comparisonReport(const HitComparison& comparison) {
 BvhxFile withVisits(const TraceOptions& options, const BvhxFile& file, std::span<const Ray> rays,
                     const CommandLine& line) {
     BvhxFile recorded = file;
-    if (!std::holds_alternative<AabbForm>(file.bvh)) {
+    if (canonicalTree(file.bvh) == nullptr) {
         recorded.bvh = AabbForm(decode(file.bvh));
         dropChunksThatDoNotSurvive(recorded, Change::reordered);
     }
-    recorded.visits = countVisits(file.scene, std::get<AabbForm>(recorded.bvh).bvh(), rays, queryOf(options));
+    recorded.visits = countVisits(file.scene, *canonicalTree(recorded.bvh), rays, queryOf(options));
     // Provenance has only the options that decide which rays these are.
     Report all = line.options(), used = Report::object();
     for (const char* name : {"rays", "count", "resolution", "seed", "camera", "any-hit"})

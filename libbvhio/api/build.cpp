@@ -11,7 +11,8 @@ namespace {
 
 EncodedBvh buildEncoded(const Scene& scene, const Builder& builder, const BuildOptions& options) {
     if (!scene.isInstanced()) return AabbForm(builder.function(scene, options));
-    return TwoLevelForm::encodeInstances(scene, buildInstanced(scene, builder, options), exactLevels());
+    return TwoLevelForm::encodeInstances(scene, buildInstanced(scene, builder, options),
+                                         TwoLevelForm::exactLevels());
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ extern "C" BvhioStatus bvhioRestructure(const BvhioContainer* container, const c
             BvhxFile& file = content->file;
             change.costs = file.costs;
             change.progress = &progress;
-            const bool isExact = std::holds_alternative<AabbForm>(file.bvh);
+            const bool isExact = traitsOf(file.bvh).isExact;
             changeTrees(file, [&](const Scene& scene, const Bvh& given, bool isTop) {
                 // Costs are those of exact boxes, not of the larger boxes that a compact form made of them.
                 RestructureOptions own = change;

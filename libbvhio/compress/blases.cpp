@@ -4,7 +4,7 @@
 
 namespace bvhio {
 
-AabbBlases AabbLinks::encode(const Forest& forest, const RootPlaces&, size_t, const EncodeOptions&) {
+AabbBlases AabbLinks::encode(const Forest& forest, const RootPlaces&, size_t, const Form::Options&) {
     Buffer<Root> roots(forest.roots.size());
     for (size_t i = 0; i < roots.size(); ++i)
         roots[i] = {forest.roots[i].first, forest.roots[i].primitiveCount};
@@ -19,7 +19,7 @@ Forest AabbLinks::decode(const AabbBlases& blases, const RootPlaces& places) {
 }
 
 SshBlases SshLinks::encode(const Forest& forest, const RootPlaces& places, size_t references,
-                           const EncodeOptions&) {
+                           const Form::Options&) {
     SshForm::Trees trees = SshForm::encodeTrees(forest, places.bounds, references);
     return {std::move(trees.roots), SshForm({}, std::move(trees.nodes), {})};
 }
@@ -29,7 +29,7 @@ Forest SshLinks::decode(const SshBlases& blases, const RootPlaces& places) {
 }
 
 QuantizedBlases QuantizedLinks::encode(const Forest& forest, const RootPlaces& places, size_t references,
-                                       const EncodeOptions& options) {
+                                       const Form::Options& options) {
     QuantizedForm::Trees trees = QuantizedForm::encodeTrees(forest, places, references, options.bits);
     return {std::move(trees.roots), QuantizedForm({}, options.bits, std::move(trees.records), {})};
 }

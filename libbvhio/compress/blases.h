@@ -31,7 +31,7 @@ class LinkedBlases {
     /// Of trees that have the boxes of `places` at their roots. Throws Error{unsupported} where the form
     /// does.
     static LinkedBlases encode(const Forest& forest, const RootPlaces& places, size_t references,
-                               const EncodeOptions& options) {
+                               const typename Form::Options& options) {
         return Links::encode(forest, places, references, options);
     }
     Forest decode(const RootPlaces& places) const { return Links::decode(*this, places); }
@@ -57,7 +57,7 @@ struct AabbLinks {
     static constexpr uint32_t kMaxLeafSize = bvhio::kMaxLeafSize;
 
     static LinkedBlases<AabbLinks> encode(const Forest& forest, const RootPlaces& places, size_t references,
-                                          const EncodeOptions& options);
+                                          const AabbForm::Options& options);
     static Forest decode(const LinkedBlases<AabbLinks>& blases, const RootPlaces& places);
 };
 
@@ -67,7 +67,7 @@ struct SshLinks {
     static constexpr uint32_t kMaxLeafSize = SshNode::kMaxLeafSize;
 
     static LinkedBlases<SshLinks> encode(const Forest& forest, const RootPlaces& places, size_t references,
-                                         const EncodeOptions& options);
+                                         const SshForm::Options& options);
     static Forest decode(const LinkedBlases<SshLinks>& blases, const RootPlaces& places);
 };
 
@@ -78,7 +78,7 @@ struct QuantizedLinks {
     static constexpr uint32_t kMaxLeafSize = QuantizedRecord::kMaxLeafSize;
 
     static LinkedBlases<QuantizedLinks> encode(const Forest& forest, const RootPlaces& places,
-                                               size_t references, const EncodeOptions& options);
+                                               size_t references, const QuantizedForm::Options& options);
     static Forest decode(const LinkedBlases<QuantizedLinks>& blases, const RootPlaces& places);
 };
 

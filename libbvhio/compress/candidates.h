@@ -1,15 +1,16 @@
-// The table of encodings that are tried where the best one is wanted: forms with their parameters.
+// The encodings that are tried where the best one is wanted: forms with their options. Each form names its
+// own (kCandidates).
 #pragma once
 
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "compress/form_concept.h"
+#include "compress/forms.h"
 
 namespace bvhio {
 
-/// A row: a form, and what it is told.
+/// A row: a form, and how it is to encode.
 struct EncodingCandidate {
     std::string_view form;
     std::string_view parameters;  // as bvh-compress takes them, "--bits 6"; empty for the form's defaults

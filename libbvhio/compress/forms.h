@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <type_traits>
 #include <variant>
 
 #include "compress/aabb_form.h"
@@ -11,21 +13,53 @@
 #include "compress/ssh_form.h"
 #include "compress/two_level_form.h"
 #include "core/choice.h"
+#include "core/error.h"
 
 namespace bvhio {
 
 using EncodedBvh = std::variant<AabbForm, QuantizedForm, QuantizedShortForm, SshForm, MvhForm, TwoLevelForm>;
 
+namespace detail {
+template <class>
+struct OptionsOfForms;
+template <class... Forms>
+struct OptionsOfForms<std::variant<Forms...>> {
+    using Type = std::variant<std::monostate, typename Forms::Options...>;
+};
+}  // namespace detail
+
+/// Options of one of the forms; or of none, which stands for any form's defaults.
+using EncodeOptions = detail::OptionsOfForms<EncodedBvh>::Type;
+
+/// Those of a form. Throws Error{usage} when they are another form's.
+template <class Form>
+typename Form::Options optionsFor(const EncodeOptions& options) {
+    if (std::holds_alternative<std::monostate>(options)) return {};
+    if (const auto* own = std::get_if<typename Form::Options>(&options)) return *own;
+    throw Error(ErrorKind::usage, "the options are another form's, not " + std::string(Form::kName) + "'s");
+}
+
+/// How a form encodes, and what it does to a tree.
+struct FormMethod {
+    EncodedBvh (*encode)(const Scene&, const Bvh&, const EncodeOptions&);
+    FormTraits traits;
+
+    EncodedBvh operator()(const Scene& scene, const Bvh& bvh, const EncodeOptions& options) const {
+        return encode(scene, bvh, options);
+    }
+};
 /// A row of the table that the variant makes: a form's name, its summary and its encoder.
-using FormChoice = Choice<EncodedBvh (*)(const Scene&, const Bvh&, const EncodeOptions&)>;
+using FormChoice = Choice<FormMethod>;
 
 namespace detail {
 template <class... Forms>
 constexpr std::array<FormChoice, sizeof...(Forms)> formTable(const std::variant<Forms...>*) {
     return {FormChoice{Forms::kName, Forms::kSummary,
-                       [](const Scene& scene, const Bvh& bvh, const EncodeOptions& options) {
-                           return EncodedBvh(Forms::encode(scene, bvh, options));
-                       }}...};
+                       FormMethod{[](const Scene& scene, const Bvh& bvh, const EncodeOptions& options) {
+                                      return EncodedBvh(
+                                          Forms::encode(scene, bvh, optionsFor<Forms>(options)));
+                                  },
+                                  Forms::kTraits}}...};
 }
 }  // namespace detail
 
@@ -35,14 +69,36 @@ inline std::span<const FormChoice> forms() {
     return kTable;
 }
 
+/// Calls function(std::type_identity<F>()) for the form called `name`. Throws Error{usage} that lists the
+/// names when there is none.
+template <size_t I = 0, class Function>
+auto visitForm(std::string_view name, const Function& function) {
+    using F = std::variant_alternative_t<I, EncodedBvh>;
+    if constexpr (I == 0) choose(forms(), "form", name);
+    if constexpr (I + 1 < std::variant_size_v<EncodedBvh>)
+        if (name != F::kName) return visitForm<I + 1>(name, function);
+    return function(std::type_identity<F>());
+}
+
 /// The name of the form that holds the tree.
 inline std::string_view formNameOf(const EncodedBvh& bvh) {
     return std::visit([](const auto& form) { return form.kName; }, bvh);
 }
 
+/// What that form does to a tree.
+inline FormTraits traitsOf(const EncodedBvh& bvh) {
+    return std::visit([](const auto& form) { return form.kTraits; }, bvh);
+}
+
 /// What encodes another tree alike.
 inline EncodeOptions optionsOf(const EncodedBvh& bvh) {
-    return std::visit([](const auto& form) { return form.options(); }, bvh);
+    return std::visit([](const auto& form) { return EncodeOptions(form.options()); }, bvh);
+}
+
+/// The tree itself where the form stores it as it is; else null.
+inline const Bvh* canonicalTree(const EncodedBvh& bvh) {
+    const auto* aabb = std::get_if<AabbForm>(&bvh);
+    return aabb != nullptr ? &aabb->bvh() : nullptr;
 }
 
 /// Whether the tree is over the instances of a scene, and trees over its meshes: then it is in the two-level

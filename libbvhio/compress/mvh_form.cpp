@@ -13,8 +13,8 @@ uint32_t slotOf(uint32_t node) {
 }
 
 /// The rules to choose from for each tree.
-std::vector<MvhRule> candidates(const EncodeOptions& options) {
-    const bool isPaper = options.mvhBuild == MvhBuild::paper;
+std::vector<MvhRule> candidates(const MvhForm::Options& options) {
+    const bool isPaper = options.build == MvhBuild::paper;
     const uint32_t axes = options.cutAxes > 0 ? options.cutAxes : isPaper ? 1 : 3;
     if (options.zeta > 0) {
         const float both = options.zetaOfBoth > 0 ? options.zetaOfBoth : options.zeta;
@@ -48,15 +48,15 @@ struct Tree {
     }
 };
 
-Tree buildTree(std::vector<MvhReference> references, const Aabb& root, const EncodeOptions& options) {
+Tree buildTree(std::vector<MvhReference> references, const Aabb& root, const MvhForm::Options& options) {
     const std::vector<MvhRule> rules = candidates(options);
-    orderMvh(references, root, {options.leafSize, rules[0]}, options.mvhBuild);
+    orderMvh(references, root, {options.leafSize, rules[0]}, options.build);
     return {std::move(references), root, options.leafSize, rules};
 }
 
 /// The best of three: greedy builds are some percent apart by luck, and most so by how many axes take turns.
 /// The paper's is rarely the one.
-Tree bestTree(const std::vector<MvhReference>& references, const Aabb& root, EncodeOptions options) {
+Tree bestTree(const std::vector<MvhReference>& references, const Aabb& root, MvhForm::Options options) {
     const bool chooses = options.cutAxes == 0;
     if (chooses) options.cutAxes = 3;
     Tree best = buildTree(references, root, options);
@@ -69,7 +69,7 @@ Tree bestTree(const std::vector<MvhReference>& references, const Aabb& root, Enc
         challenge();
         options.cutAxes = 0;
     }
-    options.mvhBuild = MvhBuild::paper;
+    options.build = MvhBuild::paper;
     challenge();
     return best;
 }
@@ -89,21 +89,21 @@ bool hasShape(const Bvh& bvh, const MvhShape& shape) {
 
 }  // namespace
 
-MvhForm MvhForm::encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options) {
+MvhForm MvhForm::encode(const Scene& scene, const Bvh& bvh, const Options& options) {
     const auto count = uint32_t(scene.triangles.size());
     const MvhShape shape(count, options.leafSize);
     std::vector<MvhReference> references = mvhReferences(scene);
     Aabb root = Aabb::empty();
     for (const MvhReference& r : references) root.extend(r.box());
-    const bool keeps = options.mvhBuild == MvhBuild::given && hasShape(bvh, shape);
+    const bool keeps = options.build == MvhBuild::given && hasShape(bvh, shape);
     if (keeps) {
         std::vector<MvhReference> ordered(count);
         for (size_t i = 0; i < count; ++i) ordered[i] = references[bvh.primitives[i]];
         references = std::move(ordered);
     }
     const Tree tree = keeps ? Tree(std::move(references), root, options.leafSize, candidates(options))
-                      : options.mvhBuild == MvhBuild::paper ? buildTree(std::move(references), root, options)
-                                                            : bestTree(references, root, options);
+                      : options.build == MvhBuild::paper ? buildTree(std::move(references), root, options)
+                                                         : bestTree(references, root, options);
 
     std::vector<uint8_t> nibbles(shape.innerCount());
     tree.coder.code(tree.rule, nibbles.data());

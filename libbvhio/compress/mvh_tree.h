@@ -43,6 +43,10 @@ struct MvhParameters {
     bool operator==(const MvhParameters&) const = default;
 };
 
+/// How the mvh form divides triangles: with much choice, as its paper does (compress/mvh_build.h), or as the
+/// given tree does, if that has the form's shape; others count as best.
+enum class MvhBuild : uint8_t { best, paper, given };
+
 /// A node's box as reconstructed, and which axis its children are cut along: 0 the longest, 1 the second, 2
 /// the shortest. The root's turn is 0.
 struct MvhBox {

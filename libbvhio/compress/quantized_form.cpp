@@ -92,7 +92,16 @@ void refuseTooManyForQuantized(size_t references) {
 
 }  // namespace
 
-QuantizedForm QuantizedForm::encode(const Scene&, const Bvh& given, const EncodeOptions& options) {
+std::span<const FormOption<QuantizedForm::Options>> QuantizedForm::optionTable() {
+    static constexpr FormOption<Options> kTable[] = {
+        memberOption<&Options::bits>({.name = "--bits",
+                                      .help = "bits per plane",
+                                      .min = QuantizedRecord::kMinBits,
+                                      .max = QuantizedRecord::kMaxBits})};
+    return kTable;
+}
+
+QuantizedForm QuantizedForm::encode(const Scene&, const Bvh& given, const Options& options) {
     refuseTooManyForQuantized(given.primitives.size());
     const Bvh bvh = divideLeaves(given, QuantizedRecord::kMaxLeafSize);
     const std::span<const Node> nodes = bvh.nodes;

@@ -10,6 +10,8 @@
 // margin per ray covers rounding (trace/ray_frame.h has the proof), instead of one at each step.
 #pragma once
 
+#include <array>
+
 #include "compress/form_concept.h"
 #include "compress/root_places.h"
 #include "compress/two_levels.h"
@@ -64,6 +66,14 @@ class QuantizedForm {
   public:
     static constexpr std::string_view kName = "quantized";
     static constexpr std::string_view kSummary = "16 bytes for two siblings, planes relative to the parent's";
+    static constexpr FormTraits kTraits{.keepsOrder = true, .dividesLeaves = true};
+    static constexpr std::array<std::string_view, 1> kCandidates{""};
+
+    struct Options {
+        uint32_t bits = 8;  // per plane, 5 to 8
+        bool operator==(const Options&) const = default;
+    };
+    static std::span<const FormOption<Options>> optionTable();
 
     /// `records` as in format-spec/quantized.md. `bits` of an inset; a tree without records is one leaf of
     /// all references.
@@ -72,7 +82,7 @@ class QuantizedForm {
         : bounds_(bounds), bits_(bits), records_(std::move(records)), primitives_(std::move(primitives)) {}
 
     /// O(n). Leaves of more than 128 triangles are halved. Throws Error{unsupported} above 2^29 references.
-    static QuantizedForm encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options);
+    static QuantizedForm encode(const Scene& scene, const Bvh& bvh, const Options& options);
 
     Bvh decode() const { return decode(nullptr); }
     /// Decodes the nodes, and their boxes as insets to `insets`, with room for 2 * records + 2 elements.
@@ -92,11 +102,7 @@ class QuantizedForm {
     uint32_t bits() const { return bits_; }
     const SharedArray<QuantizedRecord>& records() const { return records_; }
     const SharedArray<uint32_t>& primitives() const { return primitives_; }
-    EncodeOptions options() const {
-        EncodeOptions options;
-        options.bits = bits_;
-        return options;
-    }
+    Options options() const { return {.bits = bits_}; }
     size_t nodeBytes() const { return records_.size() * sizeof(QuantizedRecord); }
 
     QuantizedRoot root() const {

@@ -52,7 +52,7 @@ bool entriesAreInReach(const Bvh& bvh) {
 }
 
 /// The tree with leaves that fit, in clusters that do: its own where they are right.
-Bvh inClusters(const Bvh& given, const EncodeOptions& options) {
+Bvh inClusters(const Bvh& given, const QuantizedShortForm::Options& options) {
     Bvh bvh = divideLeaves(given, ShortRecord::kMaxLeafSize);
     if (bvh.nodes.size() == given.nodes.size()) bvh.slots = given.slots;
     if (!bvh.slots.empty() && validateSlots(bvh).empty() && entriesAreInReach(bvh)) return bvh;
@@ -79,7 +79,23 @@ SharedArray<uint32_t> markLastEntries(const std::vector<uint32_t>& leafSizes, si
 
 }  // namespace
 
-QuantizedShortForm QuantizedShortForm::encode(const Scene&, const Bvh& given, const EncodeOptions& options) {
+std::span<const FormOption<QuantizedShortForm::Options>> QuantizedShortForm::optionTable() {
+    constexpr auto kMaxLineSize = uint32_t(SlotMap::kMaxLineSlots * sizeof(ShortRecord));
+    static constexpr FormOption<Options> kTable[] = {
+        memberOption<&Options::pointerBits>({.name = "--pointer-bits",
+                                             .help = "bits of a pointer within a new cluster",
+                                             .min = SlotMap::kMinPointerBits,
+                                             .max = SlotMap::kMaxPointerBits,
+                                             .isEveryday = false}),
+        memberOption<&Options::lineSize>({.name = "--line-size",
+                                          .help = "bytes of a cache line, where new clusters start",
+                                          .min = sizeof(ShortRecord),
+                                          .max = kMaxLineSize,
+                                          .isEveryday = false})};
+    return kTable;
+}
+
+QuantizedShortForm QuantizedShortForm::encode(const Scene&, const Bvh& given, const Options& options) {
     if (given.primitives.size() > ShortRecord::kMaxReferences)
         throw Error(ErrorKind::unsupported, "the quantized-short form holds at most " +
                                                 std::to_string(ShortRecord::kMaxReferences) +

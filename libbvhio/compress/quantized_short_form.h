@@ -67,6 +67,16 @@ class QuantizedShortForm {
   public:
     static constexpr std::string_view kName = "quantized-short";
     static constexpr std::string_view kSummary = "8 bytes for two siblings, with short pointers in clusters";
+    static constexpr FormTraits kTraits{.dividesLeaves = true, .putsInClusters = true};
+    static constexpr std::array<std::string_view, 1> kCandidates{""};
+
+    /// Of new clusters.
+    struct Options {
+        uint32_t pointerBits = 8;  // 2 to 10
+        uint32_t lineSize = 64;    // bytes: a power of two, 8 to 512
+        bool operator==(const Options&) const = default;
+    };
+    static std::span<const FormOption<Options>> optionTable();
 
     /// Slots and bitmap as in format-spec/quantized-short.md; no bitmap where each leaf owns one entry.
     QuantizedShortForm(const Aabb& bounds, uint32_t pointerBits, uint32_t lineSlots,
@@ -82,7 +92,7 @@ class QuantizedShortForm {
 
     /// O(n log n), or O(n) where the tree is in clusters already that suit the form. Leaves of more than 32
     /// triangles are halved. Throws Error{unsupported} above 2^27 references.
-    static QuantizedShortForm encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options);
+    static QuantizedShortForm encode(const Scene& scene, const Bvh& bvh, const Options& options);
 
     /// Decodes to a tree in clusters, with its pairs in the order of their slots.
     Bvh decode() const;
@@ -92,11 +102,8 @@ class QuantizedShortForm {
     const SharedArray<ShortRecord>& slots() const { return slots_; }
     const SharedArray<uint32_t>& lastEntries() const { return lastEntries_; }
     const SharedArray<uint32_t>& primitives() const { return primitives_; }
-    EncodeOptions options() const {
-        EncodeOptions options;
-        options.pointerBits = pointerBits_;
-        options.lineSize = uint32_t(sizeof(ShortRecord)) << lineShift_;
-        return options;
+    Options options() const {
+        return {.pointerBits = pointerBits_, .lineSize = uint32_t(sizeof(ShortRecord)) << lineShift_};
     }
     size_t nodeBytes() const {
         return slots_.size() * sizeof(ShortRecord) + lastEntries_.size() * sizeof(uint32_t);

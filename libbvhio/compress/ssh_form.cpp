@@ -140,7 +140,7 @@ Node decoded(const SshNode& node, Aabb box, Buffer<Node>& nodes) {
 
 }  // namespace
 
-SshForm SshForm::encode(const Scene&, const Bvh& bvh, const EncodeOptions&) {
+SshForm SshForm::encode(const Scene&, const Bvh& bvh, const Options&) {
     refuseTooManyForSsh(bvh.primitives.size());
     const SharedArray<Node> given = divideLeaves(bvh, SshNode::kMaxLeafSize).nodes;
     PairEncoder encoder(given);

@@ -7,6 +7,8 @@
 // one size).
 #pragma once
 
+#include <array>
+
 #include "compress/form_concept.h"
 #include "compress/two_levels.h"
 #include "core/buffer.h"
@@ -45,19 +47,25 @@ class SshForm {
   public:
     static constexpr std::string_view kName = "ssh";
     static constexpr std::string_view kSummary = "8-byte nodes of one plane each (Single Slab Hierarchy)";
+    static constexpr FormTraits kTraits{.keepsOrder = true, .dividesLeaves = true};
+    static constexpr std::array<std::string_view, 1> kCandidates{""};
+    struct Options {
+        bool operator==(const Options&) const = default;
+    };
+    static std::span<const FormOption<Options>> optionTable() { return {}; }
 
     /// `nodes` as in format-spec/ssh.md; slot 1 is unused.
     SshForm(const Aabb& bounds, SharedArray<SshNode> nodes, SharedArray<uint32_t> primitives)
         : bounds_(bounds), nodes_(std::move(nodes)), primitives_(std::move(primitives)) {}
 
     /// O(n). Leaves of more than 4 triangles are halved. Throws Error{unsupported} above 2^25 references.
-    static SshForm encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options);
+    static SshForm encode(const Scene& scene, const Bvh& bvh, const Options& options);
 
     Bvh decode() const;
     const Aabb& bounds() const { return bounds_; }
     const SharedArray<SshNode>& nodes() const { return nodes_; }
     const SharedArray<uint32_t>& primitives() const { return primitives_; }
-    EncodeOptions options() const { return {}; }
+    Options options() const { return {}; }
     size_t nodeBytes() const { return nodes_.size() * sizeof(SshNode); }
 
     /// Many trees: the nodes below their roots, and the words of the roots. The roots' boxes are not stored.

@@ -4,30 +4,41 @@
 
 namespace bvhio {
 
-RootPlaces DecodedTlas::places(bool areRuns) {
+RootPlaces DecodedTlas::placesOfTrees() const {
     RootPlaces places;
     places.frames = {InsetFrame(bvh.nodes[0].bounds)};
-    if (!areRuns) {
-        places.bounds.resize(bvh.nodes.size() / 2);
-        places.insets.resize(bvh.nodes.size() / 2);
-    }
-    Buffer<Node> named(bvh.nodes.size());
-    for (size_t i = 0; i < named.size(); ++i) {
-        named[i] = bvh.nodes[i];
+    places.bounds.resize(bvh.nodes.size() / 2);
+    places.insets.resize(bvh.nodes.size() / 2);
+    for (size_t i = 0; i < bvh.nodes.size(); ++i) {
         const Node& leaf = bvh.nodes[i];
         if (!leaf.isLeaf()) continue;
-        if (areRuns) {
-            named[i] = {leaf.bounds, uint32_t(places.runs.size()), 1};
-            places.runs.push_back({leaf.first, leaf.primitiveCount});
-            places.bounds.push_back(leaf.bounds);
-            places.insets.push_back(insets[i]);
-        } else {
-            places.bounds[leaf.first] = leaf.bounds;
-            places.insets[leaf.first] = insets[i];
-        }
+        places.bounds[leaf.first] = leaf.bounds;
+        places.insets[leaf.first] = insets[i];
     }
-    bvh.nodes = std::move(named).share();
     return places;
+}
+
+RootPlaces DecodedTlas::placesOfRuns() const {
+    RootPlaces places;
+    places.frames = {InsetFrame(bvh.nodes[0].bounds)};
+    for (size_t i = 0; i < bvh.nodes.size(); ++i) {
+        const Node& leaf = bvh.nodes[i];
+        if (!leaf.isLeaf()) continue;
+        places.runs.push_back({leaf.first, leaf.primitiveCount});
+        places.bounds.push_back(leaf.bounds);
+        places.insets.push_back(insets[i]);
+    }
+    return places;
+}
+
+Bvh DecodedTlas::withRunsNumbered() const {
+    Buffer<Node> nodes(bvh.nodes.size());
+    uint32_t run = 0;
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        nodes[i] = bvh.nodes[i];
+        if (nodes[i].isLeaf()) nodes[i] = {nodes[i].bounds, run++, 1};
+    }
+    return {std::move(nodes).share(), bvh.primitives};
 }
 
 DecodedTlas AabbTlas::decode() const {

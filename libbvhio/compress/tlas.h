@@ -14,10 +14,13 @@ struct DecodedTlas {
     Bvh bvh;
     std::vector<InsetBox> insets;
 
-    /// Where the trees below the leaves have their roots: by the index that a leaf has as its first entry;
-    /// or, where leaves have the runs that their trees are over, one after the other. Then `bvh` is changed
-    /// so that its leaves have these indices.
-    RootPlaces places(bool areRuns);
+    /// Where the trees have their roots that leaves name: a leaf's first entry is the index of its tree.
+    RootPlaces placesOfTrees() const;
+    /// The same where a leaf owns the run of primitives that its tree is over: trees count in the order of
+    /// the leaves.
+    RootPlaces placesOfRuns() const;
+    /// The tree with leaves that name the trees over their runs, as for placesOfTrees.
+    Bvh withRunsNumbered() const;
 };
 
 /// The aabb form as a top level.

@@ -12,17 +12,40 @@
 namespace bvhio {
 namespace {
 
-/// make(a null pointer to the variant's alternative at an index).
-template <class Variant, size_t I = 0, class Function>
-auto makeAlternative(size_t index, const Function& make) {
-    if constexpr (I + 1 < std::variant_size_v<Variant>)
-        if (index != I) return makeAlternative<Variant, I + 1>(index, make);
-    return make(static_cast<const std::variant_alternative_t<I, Variant>*>(nullptr));
+/// What a top level of one leaf owns: the one BLAS.
+SharedArray<uint32_t> oneEntry() {
+    return std::vector<uint32_t>{0};
 }
 
-template <class Level>
-Level encodeTlas(const Scene& scene, const Bvh& top, const EncodeOptions& options) {
-    return Level(Level::Form::encode(scene, top, options));
+/// What the forms of BLASes differ in, but for how they are encoded.
+struct BlasTraits {
+    bool areRuns;          // primitives of a BLAS are one run, whose length says what tree is over it
+    uint32_t maxLeafSize;  // of trees that are not over runs
+};
+
+template <class Blases>
+constexpr BlasTraits traitsOfBlases() {
+    if constexpr (Blases::kAreRuns)
+        return {true, 0};
+    else
+        return {false, Blases::kMaxLeafSize};
+}
+
+BlasTraits traitsOf(BlasForm form) {
+    return []<class... Forms>(const std::variant<Forms...>*, BlasForm row) {
+        constexpr BlasTraits kTable[] = {traitsOfBlases<Forms>()...};
+        return kTable[size_t(row)];
+    }(static_cast<const TwoLevelForm::Blases*>(nullptr), form);
+}
+
+TwoLevelForm::Tlas encodeTlas(const Scene& scene, const Bvh& top, const TwoLevelForm::Options& options) {
+    switch (options.tlasForm) {
+        case TlasForm::quantized:
+            return QuantizedTlas(QuantizedForm::encode(scene, top, {.bits = options.bits}));
+        case TlasForm::aabb:
+            break;
+    }
+    return AabbTlas(AabbForm::encode(scene, top, {}));
 }
 
 DecodedTlas decodeTlas(const TwoLevelForm::Tlas& tlas) {
@@ -129,14 +152,14 @@ Bvh oneLeaf(const Aabb& meshBounds, PrimitiveRange triangles) {
 }
 
 /// The meshes' trees as BLASes of a form.
-template <class Bottom>
-GatheredTrees gatherMeshes(const PlacedBlases& placed, const Scene& scene, const InstancedBvh& bvh) {
+GatheredTrees gatherMeshes(const PlacedBlases& placed, const Scene& scene, const InstancedBvh& bvh,
+                           const BlasTraits& form) {
     std::vector<Bvh> trees;
     for (size_t i = 0; i < bvh.meshes.size(); ++i) {
         const SceneMesh& mesh = scene.meshes[i];
         Bvh tree = within(bvh.meshes[i], placed.meshBounds[i], mesh.firstTriangle);
-        if constexpr (!Bottom::kAreRuns)
-            tree = divideLeaves(tree, Bottom::kMaxLeafSize);  // tree by tree, as new pairs stand behind all
+        if (!form.areRuns)
+            tree = divideLeaves(tree, form.maxLeafSize);  // tree by tree, as new pairs stand behind all
         else if (tree.primitives.size() != mesh.triangleCount)
             tree = oneLeaf(placed.meshBounds[i], placed.runs[i]);  // it has parts of triangles
         trees.push_back(std::move(tree));
@@ -144,86 +167,108 @@ GatheredTrees gatherMeshes(const PlacedBlases& placed, const Scene& scene, const
     return gatherTrees(trees);
 }
 
+/// The bottom level, and the primitives that it is over.
+struct Bottom {
+    TwoLevelForm::Blases blases;
+    SharedArray<uint32_t> primitives;
+};
+
+/// Encodes trees over runs, whose roots are at `places`. Puts each run into the order of its tree.
+Bottom encodeRuns(Runs runs, const RootPlaces& places, const TwoLevelForm::Options& options) {
+    MvhBlases blases =
+        MvhBlases::encode(options.blasLeafSize, places, runs.primitives, runs.boxes, runs.ordered);
+    return {std::move(blases), std::move(runs.primitives)};
+}
+
+/// Encodes the trees of a forest, whose roots are at `places`.
+Bottom encodeTrees(const Forest& forest, const SharedArray<uint32_t>& primitives, const RootPlaces& places,
+                   const TwoLevelForm::Options& options) {
+    const size_t references = primitives.size();
+    switch (options.blasForm) {
+        case BlasForm::ssh:
+            return {SshBlases::encode(forest, places, references, {}), primitives};
+        case BlasForm::quantized:
+            return {QuantizedBlases::encode(forest, places, references, {.bits = options.bits}), primitives};
+        case BlasForm::mvh:  // are runs
+        case BlasForm::aabb:
+            break;
+    }
+    return {AabbBlases::encode(forest, places, references, {}), primitives};
+}
+
+/// The top level of an instanced scene, whose leaves name entries: those follow each other as the leaves do.
+struct EntryTree {
+    Bvh bvh;
+    SharedArray<uint32_t> instances;  // that the entries stand for
+};
+
+EntryTree entryTree(const Bvh& top) {
+    Buffer<Node> nodes(top.nodes.size());
+    Buffer<uint32_t> instances(top.primitives.size());
+    uint32_t entry = 0;
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        nodes[i] = top.nodes[i];
+        if (!nodes[i].isLeaf()) continue;
+        instances[entry] = top.primitives[nodes[i].first];
+        nodes[i].first = entry++;
+    }
+    return {{std::move(nodes).share(), oneEntry()}, std::move(instances).share()};
+}
+
 }  // namespace
 
-TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options) {
+TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Options& options) {
     TwoLevels levels = cutTree(bvh, options.blasSize);
-    TwoLevelForm form =
-        makeAlternative<Blases>(size_t(options.blasForm), [&](const auto* type) -> TwoLevelForm {
-            using Bottom = std::decay_t<decltype(*type)>;
-            Runs runs;
-            if constexpr (Bottom::kAreRuns) {
-                runs = gatherRuns(scene, levels.bottom, bvh.primitives, MvhRuns(options.blasLeafSize));
-                levels.top = withRuns(levels.top, runs);
-            } else {
-                // A top level of one leaf owns the one BLAS.
-                levels.top.primitives = std::vector<uint32_t>{0};
-            }
-            Tlas tlas = makeAlternative<Tlas>(size_t(options.tlasForm), [&](const auto* top) -> Tlas {
-                return encodeTlas<std::decay_t<decltype(*top)>>(scene, levels.top, options);
-            });
-            const RootPlaces places = decodeTlas(tlas).places(Bottom::kAreRuns);
-            if constexpr (Bottom::kAreRuns) {
-                Bottom blases =
-                    Bottom::encode(options.blasLeafSize, places, runs.primitives, runs.boxes, runs.ordered);
-                return {std::move(tlas), std::move(blases), std::move(runs.primitives), options.blasSize};
-            } else {
-                Bottom blases = Bottom::encode(levels.bottom, places, bvh.primitives.size(), options);
-                return {std::move(tlas), std::move(blases), bvh.primitives, options.blasSize};
-            }
-        });
+    const bool areRuns = traitsOf(options.blasForm).areRuns;
+
+    // The top level: its leaves own runs of primitives, or name trees of the bottom level.
+    Runs runs;
+    if (areRuns) {
+        runs = gatherRuns(scene, levels.bottom, bvh.primitives, MvhRuns(options.blasLeafSize));
+        levels.top = withRuns(levels.top, runs);
+    } else {
+        levels.top.primitives = oneEntry();
+    }
+    Tlas tlas = encodeTlas(scene, levels.top, options);
+
+    // The bottom level: its roots take over the boxes that the top level's leaves have now.
+    const DecodedTlas top = decodeTlas(tlas);
+    Bottom bottom = areRuns ? encodeRuns(std::move(runs), top.placesOfRuns(), options)
+                            : encodeTrees(levels.bottom, bvh.primitives, top.placesOfTrees(), options);
+
+    TwoLevelForm form(std::move(tlas), std::move(bottom.blases), std::move(bottom.primitives),
+                      options.blasSize);
     refuseTooDeep(form.decode());  // BLASes may be deeper than what they stand for
     return form;
 }
 
 TwoLevelForm TwoLevelForm::encodeInstances(const Scene& scene, const InstancedBvh& bvh,
-                                           const EncodeOptions& options) {
-    // Entries follow each other as the leaves do.
-    Buffer<Node> top(bvh.top.nodes.size());
-    Buffer<uint32_t> order(bvh.top.primitives.size());
-    uint32_t entry = 0;
-    for (size_t i = 0; i < top.size(); ++i) {
-        top[i] = bvh.top.nodes[i];
-        if (!top[i].isLeaf()) continue;
-        order[entry] = bvh.top.primitives[top[i].first];
-        top[i].first = entry++;
-    }
-    const SharedArray<uint32_t> leafOrder = std::move(order).share();
-    // As where a tree is cut, a top level of one leaf owns the one entry.
-    const Bvh entries{std::move(top).share(), std::vector<uint32_t>{0}};
-    Tlas tlas = makeAlternative<Tlas>(size_t(options.tlasForm), [&](const auto* type) -> Tlas {
-        return encodeTlas<std::decay_t<decltype(*type)>>(scene, entries, options);
-    });
-    return makeAlternative<Blases>(size_t(options.blasForm), [&](const auto* type) -> TwoLevelForm {
-        using Bottom = std::decay_t<decltype(*type)>;
-        PlacedBlases placed(scene, leafOrder, Bottom::kAreRuns);
-        GatheredTrees meshes = gatherMeshes<Bottom>(placed, scene, bvh);
-        const auto formOver = [&](Bottom blases, SharedArray<uint32_t> primitives) -> TwoLevelForm {
-            return {std::move(tlas), std::move(blases), std::move(primitives), EncodeOptions{}.blasSize,
-                    std::move(placed)};
-        };
-        const RootPlaces places = placed.places();
-        if constexpr (Bottom::kAreRuns) {
-            Runs runs = gatherRuns(scene, meshes.forest, meshes.primitives, MvhRuns(options.blasLeafSize));
-            Bottom blases =
-                Bottom::encode(options.blasLeafSize, places, runs.primitives, runs.boxes, runs.ordered);
-            return formOver(std::move(blases), std::move(runs.primitives));
-        } else {
-            return formOver(Bottom::encode(meshes.forest, places, meshes.primitives.size(), options),
-                            std::move(meshes.primitives));
-        }
-    });
+                                           const Options& options) {
+    const BlasTraits blasTraits = traitsOf(options.blasForm);
+    EntryTree top = entryTree(bvh.top);
+    Tlas tlas = encodeTlas(scene, top.bvh, options);
+
+    // A BLAS for each mesh, whose root has the mesh's box.
+    PlacedBlases placed(scene, std::move(top.instances), blasTraits.areRuns);
+    GatheredTrees meshes = gatherMeshes(placed, scene, bvh, blasTraits);
+    const RootPlaces places = placed.places();
+    Bottom bottom =
+        blasTraits.areRuns
+            ? encodeRuns(gatherRuns(scene, meshes.forest, meshes.primitives, MvhRuns(options.blasLeafSize)),
+                         places, options)
+            : encodeTrees(meshes.forest, meshes.primitives, places, options);
+    return {std::move(tlas), std::move(bottom.blases), std::move(bottom.primitives), Options{}.blasSize,
+            std::move(placed)};
 }
 
 TwoLevels TwoLevelForm::decodeLevels() const {
-    DecodedTlas top = decodeTlas(tlas_);
-    return std::visit(
-        [&](const auto& level) -> TwoLevels {
-            const RootPlaces places =
-                isInstanced() ? placed_.places() : top.places(std::decay_t<decltype(level)>::kAreRuns);
-            return {std::move(top.bvh), level.decode(places)};
-        },
-        blases_);
+    const DecodedTlas top = decodeTlas(tlas_);
+    const bool ownsRuns = !isInstanced() && traitsOf(BlasForm(blases_.index())).areRuns;
+    const RootPlaces places = isInstanced() ? placed_.places()
+                              : ownsRuns    ? top.placesOfRuns()
+                                            : top.placesOfTrees();
+    return {ownsRuns ? top.withRunsNumbered() : top.bvh,
+            std::visit([&](const auto& level) { return level.decode(places); }, blases_)};
 }
 
 InstancedBvh TwoLevelForm::decodeInstances(const Scene& scene) const {
@@ -261,13 +306,14 @@ Bvh TwoLevelForm::decode() const {
     return joinLevels(decodeLevels(), primitives_);
 }
 
-EncodeOptions TwoLevelForm::options() const {
-    EncodeOptions options = std::visit([](const auto& level) { return level.form().options(); }, tlas_);
+TwoLevelForm::Options TwoLevelForm::options() const {
+    Options options;
+    options.tlasForm = TlasForm(tlas_.index());
+    options.blasForm = BlasForm(blases_.index());
+    if (const auto* quantized = std::get_if<QuantizedTlas>(&tlas_)) options.bits = quantized->form().bits();
     if (const auto* quantized = std::get_if<QuantizedBlases>(&blases_))
         options.bits = quantized->form().bits();
     if (const auto* mvh = std::get_if<MvhBlases>(&blases_)) options.blasLeafSize = mvh->shape().leafSize();
-    options.tlasForm = TlasForm(tlas_.index());
-    options.blasForm = BlasForm(blases_.index());
     if (!isInstanced()) options.blasSize = blasSize_;
     return options;
 }

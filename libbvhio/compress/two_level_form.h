@@ -39,11 +39,37 @@ struct PlacedBlases {
     RootPlaces places() const;
 };
 
+/// Forms of the levels, the default first.
+enum class TlasForm : uint8_t { quantized, aabb };
+enum class BlasForm : uint8_t { mvh, ssh, quantized, aabb };
+
 class TwoLevelForm {
   public:
     static constexpr std::string_view kName = "two-level";
     static constexpr std::string_view kSummary =
         "a top level over many small trees, each in a form of its own";
+    /// Forms of levels differ: what one of them may do counts.
+    static constexpr FormTraits kTraits{.dividesLeaves = true, .mergesLeaves = true, .holdsInstances = true};
+    static constexpr std::array<std::string_view, 7> kCandidates{
+        "--tlas-form quantized --blas-form mvh --blas-size 16",
+        "--tlas-form quantized --blas-form mvh --blas-size 80",
+        "--tlas-form quantized --blas-form mvh --blas-size 128",
+        "--tlas-form aabb --blas-form mvh --blas-size 16",
+        "--tlas-form aabb --blas-form ssh --blas-size 16",
+        "--tlas-form aabb --blas-form ssh --blas-size 32",
+        "--tlas-form aabb --blas-form ssh --blas-size 64"};
+
+    struct Options {
+        TlasForm tlasForm{};
+        BlasForm blasForm{};
+        uint32_t blasSize = 80;      // primitives per BLAS at most, unless a single leaf has more
+        uint32_t bits = 8;           // per plane of quantized levels, 5 to 8
+        uint32_t blasLeafSize = 16;  // triangles per leaf of mvh BLASes, 1 to 16
+        bool operator==(const Options&) const = default;
+    };
+    static std::span<const FormOption<Options>> optionTable();
+    /// Both levels in the aabb form, which keeps all boxes: how instances are built.
+    static Options exactLevels() { return {.tlasForm = TlasForm::aabb, .blasForm = BlasForm::aabb}; }
 
     /// In the order of TlasForm and BlasForm.
     using Tlas = std::variant<QuantizedTlas, AabbTlas>;
@@ -61,11 +87,10 @@ class TwoLevelForm {
           placed_(std::move(placed)) {}
 
     /// O(n). Throws Error{unsupported} where the forms of the levels do.
-    static TwoLevelForm encode(const Scene& scene, const Bvh& bvh, const EncodeOptions& options);
+    static TwoLevelForm encode(const Scene& scene, const Bvh& bvh, const Options& options);
 
     /// Of valid trees over an instanced scene. Throws Error{unsupported} where the forms of the levels do.
-    static TwoLevelForm encodeInstances(const Scene& scene, const InstancedBvh& bvh,
-                                        const EncodeOptions& options);
+    static TwoLevelForm encodeInstances(const Scene& scene, const InstancedBvh& bvh, const Options& options);
 
     /// The nodes of the top level, those of the bottom level behind them. Throws Error{usage} when the form
     /// holds instances: their trees do not make one.
@@ -79,7 +104,7 @@ class TwoLevelForm {
     const Tlas& tlas() const { return tlas_; }
     const Blases& blases() const { return blases_; }
     const SharedArray<uint32_t>& primitives() const { return primitives_; }
-    EncodeOptions options() const;
+    Options options() const;
     size_t tlasBytes() const;
     size_t nodeBytes() const;
 

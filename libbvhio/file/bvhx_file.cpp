@@ -57,7 +57,7 @@ BvhxFile readContent(ContainerReader& container, std::vector<Finding>* collected
     Scene scene = readScene(chunks);
     StoredTree tree = readTree(chunks, scene);
     SharedArray<uint32_t> visits;
-    if (const auto* aabb = std::get_if<AabbForm>(&tree.bvh)) visits = readVisits(chunks, aabb->bvh());
+    if (const Bvh* bvh = canonicalTree(tree.bvh)) visits = readVisits(chunks, *bvh);
     std::vector<ProvenanceEntry> provenance;
     if (chunks.nextIs(kProvenanceType)) provenance = readProvenance(chunks);
     chunks.expect(kEndType, ChunkSequence::kAnySize);

@@ -7,9 +7,6 @@
 
 namespace bvhio {
 
-/// Returns options that encode both levels of an instanced scene in the aabb form, as they are built.
-EncodeOptions exactLevels();
-
 /// Replaces the file's tree, or each tree of an instanced scene, by the tree that `function` returns for it,
 /// in the aabb form. `isTop` marks the tree over the instances; its scene has one triangle in each instance's
 /// box.

@@ -57,9 +57,10 @@ EncodedBvh readForm(ChunkSequence& chunks, const TreeParameters& parameters, con
         chunks.fail(FindingId::unknownForm,
                     "unknown form '" + chunkTypeName(parameters.form) + "': use a newer bvhx");
     } else {
-        using Chunks = FormChunks<std::variant_alternative_t<I, EncodedBvh>>;
+        using Form = std::variant_alternative_t<I, EncodedBvh>;
+        using Chunks = FormChunks<Form>;
         if (Chunks::kCode == parameters.form) {
-            if (scene.isInstanced() && Chunks::kCode != FormChunks<TwoLevelForm>::kCode)
+            if (scene.isInstanced() && !Form::kTraits.holdsInstances)
                 chunks.fail(FindingId::treeOfInstances,
                             "a scene with instances must have its tree in the two-level form");
             return Chunks::read(chunks, parameters, scene);

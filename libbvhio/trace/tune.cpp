@@ -99,7 +99,7 @@ class Tuner {
         const Times diffuse = timeBoth(aabb_, *made, diffuse_, options_.rounds);
         const double seconds = primary.candidate + diffuse.candidate;
         row.mraysPerSecond = seconds > 0 ? double(counts.rays) / seconds / 1e6 : 0;
-        if (candidate.form == AabbForm::kName) return row;  // the reference itself
+        if (candidate.form == encodingCandidates()[0].form) return row;  // the reference itself
         row.slowdownPrimary = primary.slowdown();
         row.slowdownDiffuse = diffuse_.empty() ? row.slowdownPrimary : diffuse.slowdown();
         row.slowdown = std::sqrt(row.slowdownPrimary * row.slowdownDiffuse);

@@ -235,7 +235,7 @@ POINTER_BITS = [6, 8, 10]
 
 
 def has_short_records(layouts):
-    return has_option("bvh-compress", "--record-bytes") and "clusters" in layouts
+    return "quantized-short" in names_of("bvh-compress", "--form") and "clusters" in layouts
 
 
 def measure_short(tree, rays, options, work):
@@ -244,7 +244,7 @@ def measure_short(tree, rays, options, work):
     for bits in POINTER_BITS:
         container, report = os.path.join(work, "short.bvhx"), os.path.join(work, "report.json")
         run("bvh-relayout", tree, "--layout", "clusters", "--pointer-bits", bits, "--report", report, "-o", container)
-        run("bvh-compress", container, "--form", "quantized", "--record-bytes", 8, "--codec", "none", "-o", container)
+        run("bvh-compress", container, "--form", "quantized-short", "--codec", "none", "-o", container)
         row = rows[bits] = Row()
         row.containers = {line: container for line in LINES}
         with open(report) as file:

@@ -81,7 +81,7 @@ void tryBytes(std::span<const std::byte> bytes) {
                           packed = written(file, {.codec = "zstd", .codecLevel = 1});
         require(written(readBvhx(asBytes(plain), "plain"), {}) == plain);
         require(written(readBvhx(asBytes(packed), "packed"), {}) == plain);
-        if (std::holds_alternative<AabbForm>(file.bvh)) {
+        if (traitsOf(file.bvh).isExact) {
             const std::string topology = written(file, {.nodes = NodeEncoding::topology});
             require(written(readBvhx(asBytes(topology), "topology"), {}) == plain);
         }

@@ -129,13 +129,10 @@ inline BvhxFile inForm(BvhxFile file, std::string_view form, const EncodeOptions
 /// Returns a file with its tree in two levels.
 inline BvhxFile inTwoLevels(BvhxFile file, TlasForm tlas, BlasForm blas, uint32_t blasSize,
                             uint32_t bits = 8) {
-    EncodeOptions options;
-    options.bits = bits;
-    options.blasLeafSize = 4;
-    options.tlasForm = tlas;
-    options.blasForm = blas;
-    options.blasSize = blasSize;
-    return inForm(std::move(file), "two-level", options);
+    return inForm(
+        std::move(file), "two-level",
+        TwoLevelForm::Options{
+            .tlasForm = tlas, .blasForm = blas, .blasSize = blasSize, .bits = bits, .blasLeafSize = 4});
 }
 
 /// Returns the two triangles as a mesh in two places. The second instance is stretched and mirrored.
@@ -145,12 +142,9 @@ inline BvhxFile twoPlaces() {
     scene.meshes = {{.geometryCount = 1}};
     scene.instances = {{kIdentityAffine, 0, 0, 0}, {{2, 0, 0, 3, 0, -1, 0, 0, 0, 0, 1, 0.5f}, 0, 0, 1}};
     numberInstances(scene);
-    EncodeOptions options;
-    options.tlasForm = TlasForm::aabb;
-    options.blasForm = BlasForm::aabb;
     const InstancedBvh trees =
         buildInstanced(scene, choose(builders(), "builder", "median"), {.costs = {}, .maxLeafSize = 1});
-    file.bvh = TwoLevelForm::encodeInstances(scene, trees, options);
+    file.bvh = TwoLevelForm::encodeInstances(scene, trees, TwoLevelForm::exactLevels());
     return file;
 }
 
@@ -166,12 +160,9 @@ inline BvhxFile gridPlaces(BlasForm blas) {
                        {{1, 0.25f, 0, 0, 0, 1, 0, 5, 0, 0, 2, 1}, 1, 0, 9},
                        {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 10}};
     numberInstances(scene);
-    EncodeOptions options;
-    options.tlasForm = TlasForm::quantized;
-    options.blasForm = blas;
-    options.blasLeafSize = 4;
     const InstancedBvh trees = buildInstanced(scene, choose(builders(), "builder", "median"), {});
-    file.bvh = TwoLevelForm::encodeInstances(scene, trees, options);
+    file.bvh = TwoLevelForm::encodeInstances(
+        scene, trees, {.tlasForm = TlasForm::quantized, .blasForm = blas, .blasLeafSize = 4});
     return file;
 }
 
@@ -186,10 +177,12 @@ inline std::vector<GoldenFile> goldenFiles() {
          {.codec = "zstd", .geometry = GeometryEncoding::draco, .dracoPositionBits = 8}},
         {"two_triangles_quantized", inForm(twoTriangles(), "quantized"), {}},
         {"grid_quantized_zstd", inForm(grid(), "quantized"), {.codec = "zstd"}},
-        {"grid_quantized_6", inForm(grid(), "quantized", {.bits = 6}), {}},
+        {"grid_quantized_6", inForm(grid(), "quantized", QuantizedForm::Options{.bits = 6}), {}},
         {"one_leaf_quantized", inForm(oneLeaf(), "quantized"), {}},
         {"two_triangles_quantized_short", inForm(twoTriangles(), "quantized-short"), {}},
-        {"grid_quantized_short", inForm(grid(), "quantized-short", {.pointerBits = 3, .lineSize = 16}), {}},
+        {"grid_quantized_short",
+         inForm(grid(), "quantized-short", QuantizedShortForm::Options{.pointerBits = 3, .lineSize = 16}),
+         {}},
         {"one_leaf_quantized_short", inForm(oneLeaf(), "quantized-short"), {}},
         {"two_triangles_clusters", inClusters(twoTriangles(), 8, 64), {}},
         {"grid_clusters", inClusters(grid(), 3, 16), {}},
@@ -210,7 +203,9 @@ inline std::vector<GoldenFile> goldenFiles() {
         {"grid_quantized_over_ssh", inTwoLevels(grid(), TlasForm::quantized, BlasForm::ssh, 9), {}},
         {"grid_aabb_over_mvh", inTwoLevels(grid(), TlasForm::aabb, BlasForm::mvh, 40), {}},
         {"grid_aabb_over_aabb", inTwoLevels(grid(), TlasForm::aabb, BlasForm::aabb, 9), {}},
-        {"grid_over_mvh_leaf_3", inForm(grid(), "two-level", {.blasSize = 20, .blasLeafSize = 3}), {}},
+        {"grid_over_mvh_leaf_3",
+         inForm(grid(), "two-level", TwoLevelForm::Options{.blasSize = 20, .blasLeafSize = 3}),
+         {}},
         {"two_triangles_over_quantized",
          inTwoLevels(twoTriangles(), TlasForm::aabb, BlasForm::quantized, 2),
          {}},

@@ -18,11 +18,8 @@ namespace {
 template <class Function>
 void forEachForm(const Scene& scene, const Bvh& bvh, const Function& function) {
     for (const FormChoice& form : forms()) function(std::string(form.name), form.function(scene, bvh, {}));
-    EncodeOptions manyClusters;
-    manyClusters.pointerBits = 3;
-    manyClusters.lineSize = 16;
     function("quantized-short in many clusters",
-             EncodedBvh(QuantizedShortForm::encode(scene, bvh, manyClusters)));
+             EncodedBvh(QuantizedShortForm::encode(scene, bvh, {.pointerBits = 3, .lineSize = 16})));
 }
 
 /// Returns rays, and the same rays again with limits around their hits.

@@ -16,13 +16,13 @@
 namespace bvhio {
 namespace {
 
-EncodeOptions levels(TlasForm tlas, BlasForm blas) {
-    EncodeOptions options;
+TwoLevelForm::Options levels(TlasForm tlas, BlasForm blas) {
+    TwoLevelForm::Options options;
     options.tlasForm = tlas;
     options.blasForm = blas;
     return options;
 }
-const EncodeOptions kSmall = levels(TlasForm::quantized, BlasForm::ssh);
+const TwoLevelForm::Options kSmall = levels(TlasForm::quantized, BlasForm::ssh);
 
 template <class Function>
 void forEachPair(const Function& function) {
@@ -66,7 +66,7 @@ TEST(InstancedScenes, hitsEqualBruteForceBitByBit) {
         for (const Builder& builder : builders()) {
             SCOPED_TRACE(builder.name);
             const InstancedBvh bvh = buildInstanced(scene, builder, {.costs = {}, .maxLeafSize = 13});
-            forEachPair([&](const EncodeOptions& options) {
+            forEachPair([&](const TwoLevelForm::Options& options) {
                 const EncodedBvh encoded = TwoLevelForm::encodeInstances(scene, bvh, options);
                 for (const TriangleSource source : {TriangleSource::indexed, TriangleSource::blocks}) {
                     const Tracer tracer(scene, encoded, source);
@@ -93,13 +93,13 @@ TEST(InstancedScenes, surviveFilesInEveryForm) {
         // Leaves are larger than ssh can store: their halves must stay with their mesh.
         const InstancedBvh bvh =
             buildInstanced(scene, choose(builders(), "builder", "median"), {.costs = {}, .maxLeafSize = 200});
-        forEachPair([&](const EncodeOptions& options) {
+        forEachPair([&](const TwoLevelForm::Options& options) {
             const BvhxFile file{scene, TwoLevelForm::encodeInstances(scene, bvh, options), {}, {}, {}};
-            EXPECT_EQ(optionsOf(file.bvh), options);
+            EXPECT_EQ(optionsOf(file.bvh), EncodeOptions(options));
             const BvhxFile read = readBvhx(asBytes(written(file)), "test");
             EXPECT_EQ(read.scene.meshes, scene.meshes);
             EXPECT_EQ(read.scene.instances, scene.instances);
-            EXPECT_EQ(optionsOf(read.bvh), options);
+            EXPECT_EQ(optionsOf(read.bvh), EncodeOptions(options));
             EXPECT_EQ(written(read), written(file));
             EXPECT_GT(sahCost(scene, file.bvh, {}), 0);
             // Encode again from the canonical trees.

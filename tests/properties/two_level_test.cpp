@@ -23,7 +23,7 @@ void forEachPair(const Function& function) {
             for (const uint32_t blasSize : {1u, 3u, 16u, 70u, kMaxLeafSize}) {
                 SCOPED_TRACE(testing::Message() << levelForms<TlasForm>()[tlas] << " over "
                                                 << levelForms<BlasForm>()[blas] << " of " << blasSize);
-                EncodeOptions options;
+                TwoLevelForm::Options options;
                 options.tlasForm = TlasForm(tlas);
                 options.blasForm = BlasForm(blas);
                 options.blasSize = blasSize;
@@ -42,7 +42,7 @@ TEST_P(TwoLevelInScene, hitsEqualBruteForce) {
     for (const Ray& ray : rays) expected.push_back(bruteForceClosestHit(scene, ray));
     for (const uint32_t maxLeafSize : {1u, 13u}) {
         const Bvh bvh = builders()[0].function(scene, {.costs = {}, .maxLeafSize = maxLeafSize});
-        forEachPair([&](const EncodeOptions& options) {
+        forEachPair([&](const TwoLevelForm::Options& options) {
             const EncodedBvh encoded = TwoLevelForm::encode(scene, bvh, options);
             for (const TriangleSource source : {TriangleSource::blocks, TriangleSource::indexed}) {
                 if (source == TriangleSource::indexed && maxLeafSize == 1) continue;
@@ -63,9 +63,9 @@ TEST_P(TwoLevelInScene, hitsEqualBruteForce) {
 TEST_P(TwoLevelInScene, decodesToValidTreesAndSurvivesFiles) {
     const Scene scene = GetParam().make();
     const Bvh bvh = builders()[0].function(scene, {.costs = {}, .maxLeafSize = 6});
-    forEachPair([&](const EncodeOptions& options) {
+    forEachPair([&](const TwoLevelForm::Options& options) {
         const EncodedBvh encoded = TwoLevelForm::encode(scene, bvh, options);
-        EXPECT_EQ(optionsOf(encoded), options);
+        EXPECT_EQ(optionsOf(encoded), EncodeOptions(options));
         const Bvh decoded = decode(encoded);
         for (const Finding& finding :
              validate(decoded, uint32_t(scene.triangles.size()), boundsOfTriangles(scene)).findings)
@@ -74,7 +74,7 @@ TEST_P(TwoLevelInScene, decodesToValidTreesAndSurvivesFiles) {
         const BvhxFile file{scene, encoded, {}, {}, {}};
         const BvhxFile read = readBvhx(asBytes(written(file)), "test");
         expectSameContent(file, read);
-        EXPECT_EQ(optionsOf(read.bvh), options);
+        EXPECT_EQ(optionsOf(read.bvh), EncodeOptions(options));
     });
 }
 

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,6 +58,7 @@ struct CommandLine::Parser {
     bool recording = true;
     std::vector<Recorded> recorded;
     std::unique_ptr<ThreadLimit> threadLimit;
+    std::map<std::string, std::string> dropped{};  // what to use instead, by name
 
     CLI::Option* add(const std::string& names, const std::string& valueName, const std::string& help,
                      std::function<void(const std::string&)> set, std::function<Report()> get) {
@@ -129,6 +131,8 @@ struct CommandLine::Parser {
                                                       : "only one input is read: " + seeHelp));
         }
         const std::string given = extra.substr(0, extra.find('='));
+        if (const auto old = dropped.find(given); old != dropped.end())
+            throw Error(ErrorKind::usage, "unknown option '" + given + "': use " + old->second);
         const std::vector<std::string> names = optionNames();
         const std::vector<std::string_view> views(names.begin(), names.end());
         throw Error(ErrorKind::usage,

@@ -118,6 +118,10 @@ void CommandLine::choiceOrFile(const std::string& names, std::string& value,
     parser_->addChoice(names, value, values, fileName, help);
 }
 
+void CommandLine::dropped(const std::string& name, const std::string& instead) {
+    parser_->dropped[name] = instead;
+}
+
 void CommandLine::beginPlumbing() {
     parser_->recording = false;
     parser_->group = "Input and output";

@@ -10,6 +10,7 @@
 #include "common/help_text.h"
 #include "common/progress_bar.h"
 #include "core/choice.h"
+#include "core/named_value.h"
 #include "core/report.h"
 
 namespace bvhio {
@@ -67,6 +68,8 @@ class CommandLine {
     /// One of `values` or any text with a dot or a slash in it: a file.
     void choiceOrFile(const std::string& names, std::string& value, const std::vector<NamedValue>& values,
                       const std::string& fileName, const std::string& help);
+    /// An option that older versions had: who gives it reads what to use instead.
+    void dropped(const std::string& name, const std::string& instead);
     /// Options declared after this say where things go, not what comes out: options() leaves them out, and
     /// --help lists them separately.
     void beginPlumbing();

@@ -1,44 +1,49 @@
-// The options of forms, for tools that encode.
+// The options of forms, for tools that encode: what forms say of their options, put on a command line.
 #pragma once
 
+#include <deque>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/command_line.h"
-#include "compress/form_concept.h"
+#include "compress/form_options.h"
 
 namespace bvhio {
 
-/// Declares the options of all forms. What was given is checked first, and then put among the parameters of a
+/// Declares the options of all forms. What was given is checked first, and then put among the options of a
 /// form.
 class FormOptions {
   public:
-    explicit FormOptions(CommandLine& line);
+    enum class Which { everyday, all };
+    explicit FormOptions(CommandLine& line, Which which = Which::everyday);
 
-    /// Throws Error{usage} for what was given though `form` has no use for it, or can't have it so. Levels of
-    /// two whose form was not given are in `defaults`'.
-    void check(std::string_view form, const EncodeOptions& defaults) const;
+    /// Throws Error{usage} for an option that was given though `form` does not have it, and for a value that
+    /// means nothing.
+    void check(std::string_view form) const;
 
-    /// Whether form quantized is to have 8-byte records. For before fill.
-    bool isShort(bool inClusters) const;
-
-    /// `defaults` with what was given. The rest of what `form` has a use for is filled in, so that provenance
-    /// tells it. For after check.
+    /// `defaults`, which are the form's, with what was given. The values of the other options that the tree
+    /// then depends on are filled in, so that provenance records them. Throws Error{usage} for an option that
+    /// was given though the tree does not depend on it. For after check.
     EncodeOptions fill(std::string_view form, const EncodeOptions& defaults);
 
   private:
-    EncodeOptions withLevels(const EncodeOptions& defaults) const;
-    void readZeta(EncodeOptions& options) const;
-    static void fill(uint32_t& given, uint32_t& option);
-    void fillMvh(EncodeOptions& options);
+    /// An option on the command line, and its value: of a choice, the name is in value.text.
+    struct Declared {
+        OptionInfo info;
+        std::vector<std::string_view> forms;  // that have it
+        OptionValue value{};
+    };
+
+    void gather(Which which);
+    void declare(Declared& option, const std::string& help);
+    const Declared* find(std::string_view name) const;
+    bool isGiven(const OptionInfo& option) const;
+    template <class Form>
+    typename Form::Options withGiven(typename Form::Options options) const;
 
     CommandLine& line_;
-    // 0 or empty where not given.
-    uint32_t bits_ = 0, recordBytes_ = 0;
-    std::string tlasForm_, blasForm_;
-    uint32_t blasSize_ = 0;
-    std::string mvhBuild_, zeta_;
-    uint32_t leafSize_ = 0;
+    std::deque<Declared> options_;  // the command line keeps references to values
 };
 
 }  // namespace bvhio

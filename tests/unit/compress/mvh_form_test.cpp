@@ -109,7 +109,7 @@ TEST_P(MvhInScene, boxesHoldTheirTriangles) {
         for (const uint32_t leafSize : {1u, 3u, 4u, 16u})
             for (const float zeta : {0.01f, 0.3f, 0.5f, 0.99f}) {
                 const MvhForm form = MvhForm::encode(
-                    scene, {}, {.leafSize = leafSize, .zeta = zeta, .zetaOfBoth = 0, .mvhBuild = build});
+                    scene, {}, {.leafSize = leafSize, .zeta = zeta, .zetaOfBoth = 0, .build = build});
                 const Bvh bvh = form.decode();
                 ASSERT_EQ(bvh.primitives.size(), scene.triangles.size());
                 const Validation validation =
@@ -130,14 +130,14 @@ TEST_P(MvhInScene, bestCostsNoMoreThanPaper) {
         double costs[2];
         for (const MvhBuild build : {MvhBuild::best, MvhBuild::paper})
             costs[build == MvhBuild::paper] =
-                sahCost(MvhForm::encode(scene, {}, {.leafSize = leafSize, .mvhBuild = build}).decode(), {});
+                sahCost(MvhForm::encode(scene, {}, {.leafSize = leafSize, .build = build}).decode(), {});
         EXPECT_LE(costs[0], costs[1] * 1.000001) << leafSize;
     }
 }
 
 TEST_P(MvhInScene, keepsATreeThatItDecodedTo) {
     const Scene scene = GetParam().make();
-    const MvhForm form = MvhForm::encode(scene, {}, {.leafSize = 2, .mvhBuild = MvhBuild::paper});
+    const MvhForm form = MvhForm::encode(scene, {}, {.leafSize = 2, .build = MvhBuild::paper});
     const Bvh bvh = form.decode();
     const MvhForm again = MvhForm::encode(scene, bvh, form.options());
     EXPECT_EQ(again.options(), form.options());
@@ -214,7 +214,7 @@ TEST(MvhForm, cutsAcrossLongTriangles) {
     }
     const Scene scene = test::sceneOf(triangles);
     const auto cost = [&](MvhBuild build) {
-        return sahCost(MvhForm::encode(scene, {}, {.leafSize = 1, .mvhBuild = build}).decode(), {});
+        return sahCost(MvhForm::encode(scene, {}, {.leafSize = 1, .build = build}).decode(), {});
     };
     EXPECT_LT(cost(MvhBuild::best), 0.5 * cost(MvhBuild::paper));
 }

@@ -14,9 +14,7 @@ namespace {
 QuantizedForm encode(AlignedVector<Node> nodes, uint32_t primitives, uint32_t bits = 8) {
     std::vector<uint32_t> order(primitives);
     for (uint32_t i = 0; i < primitives; ++i) order[i] = i;
-    EncodeOptions options;
-    options.bits = bits;
-    return QuantizedForm::encode({}, {std::move(nodes), std::move(order)}, options);
+    return QuantizedForm::encode({}, {std::move(nodes), std::move(order)}, {.bits = bits});
 }
 
 // An inset of 0 is the parent's plane. Other planes are their child's, rounded outwards.

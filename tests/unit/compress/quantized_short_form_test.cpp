@@ -19,10 +19,7 @@ namespace bvhio {
 namespace {
 
 QuantizedShortForm encode(const Bvh& bvh, uint32_t pointerBits = 8, uint32_t lineSize = 64) {
-    EncodeOptions options;
-    options.pointerBits = pointerBits;
-    options.lineSize = lineSize;
-    return QuantizedShortForm::encode({}, bvh, options);
+    return QuantizedShortForm::encode({}, bvh, {.pointerBits = pointerBits, .lineSize = lineSize});
 }
 
 std::vector<uint32_t> firstEntries(uint32_t count) {

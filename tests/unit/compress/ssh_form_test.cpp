@@ -83,9 +83,7 @@ TEST(SshForm, refusesLargeLeavesThatLieTooDeepToBeDivided) {
     EXPECT_THROW(SshForm::encode({}, deepChain(SshNode::kMaxLeafSize + 1), {}), Error);
     const Bvh fits = deepChain(SshNode::kMaxLeafSize);
     EXPECT_EQ(SshForm::encode({}, fits, {}).decode().nodes.size(), fits.nodes.size());
-    EncodeOptions options;
-    options.tlasForm = TlasForm::aabb;
-    options.blasForm = BlasForm::ssh;
+    const TwoLevelForm::Options options{.tlasForm = TlasForm::aabb, .blasForm = BlasForm::ssh};
     EXPECT_THROW(TwoLevelForm::encode({}, deepChain(SshNode::kMaxLeafSize + 1), options), Error);
     EXPECT_EQ(TwoLevelForm::encode({}, fits, options).decode().nodes.size(), fits.nodes.size());
 }

@@ -17,12 +17,8 @@ Scene soup() {
     return test::sceneOf(test::randomTriangles(700, 5, 0.1f));
 }
 
-EncodeOptions optionsFor(TlasForm tlas, BlasForm blas, uint32_t blasSize) {
-    EncodeOptions options;
-    options.tlasForm = tlas;
-    options.blasForm = blas;
-    options.blasSize = blasSize;
-    return options;
+TwoLevelForm::Options optionsFor(TlasForm tlas, BlasForm blas, uint32_t blasSize) {
+    return {.tlasForm = tlas, .blasForm = blas, .blasSize = blasSize};
 }
 
 uint32_t primitivesBelow(const Bvh& bvh, const Node& node) {
@@ -77,7 +73,7 @@ TEST(MvhBlases, takeAByteForEveryLeaf) {
     const Scene scene = test::sphereScene(60, 30);
     const Bvh bvh = builders()[0].function(scene, {.costs = {}, .maxLeafSize = 1});
     for (const uint32_t leafSize : {4u, 16u}) {
-        EncodeOptions options = optionsFor(TlasForm::quantized, BlasForm::mvh, 16);
+        TwoLevelForm::Options options = optionsFor(TlasForm::quantized, BlasForm::mvh, 16);
         options.blasLeafSize = leafSize;
         const TwoLevelForm form = TwoLevelForm::encode(scene, bvh, options);
         EXPECT_EQ(form.options(), options);
@@ -110,9 +106,9 @@ TEST(QuantizedBlases, goOnWhereTheTopEnds) {
     const Bvh bvh = builders()[0].function(scene, {.costs = {}, .maxLeafSize = 7});
     const std::vector<Ray> rays = test::awkwardRays(scene, 1, 10);
     for (const uint32_t bits : {5u, 8u}) {
-        EncodeOptions options = optionsFor(TlasForm::quantized, BlasForm::quantized, 9);
+        TwoLevelForm::Options options = optionsFor(TlasForm::quantized, BlasForm::quantized, 9);
         options.bits = bits;
-        const EncodedBvh one = QuantizedForm::encode(scene, bvh, options);
+        const EncodedBvh one = QuantizedForm::encode(scene, bvh, {.bits = bits});
         const EncodedBvh two = TwoLevelForm::encode(scene, bvh, options);
         EXPECT_EQ(boundsHash(decode(two)), boundsHash(decode(one)));
         const TraversalCounts a = Tracer(scene, one).measure(rays, QueryKind::closest).counts;

@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "file/check.h"
 #include "file/chunks.h"
+#include "file/content.h"
 
 namespace bvhio {
 namespace {

@@ -8,7 +8,7 @@
 #include "compress/mvh_blases.h"
 #include "compress/quantized_form.h"
 #include "compress/ssh_form.h"
-#include "compress/two_levels.h"
+#include "compress/forest.h"
 
 namespace bvhio {
 

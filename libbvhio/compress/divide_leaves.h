@@ -1,7 +1,7 @@
 // Divides leaves, for forms whose leaves are small.
 #pragma once
 
-#include "compress/two_levels.h"
+#include "compress/forest.h"
 
 namespace bvhio {
 

@@ -5,6 +5,7 @@
 
 #include "core/clip_triangle.h"
 #include "core/parallel.h"
+#include "scene/triangle_bounds.h"
 #include "tree/refit.h"
 
 namespace bvhio {
@@ -46,9 +47,7 @@ Bvh exactTreeOfParts(const Scene& scene, const Bvh& bvh) {
 
 Bvh withExactBoxes(const Scene& scene, const Bvh& bvh) {
     if (bvh.primitives.size() > scene.triangles.size()) return exactTreeOfParts(scene, bvh);
-    return refit(bvh, [&](std::span<const uint32_t> triangles, Aabb* boxes) {
-        for (size_t i = 0; i < triangles.size(); ++i) boxes[i] = bounds(scene.triangle(triangles[i]));
-    });
+    return refit(bvh, boundsOfTriangles(scene));
 }
 
 }  // namespace bvhio

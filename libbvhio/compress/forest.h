@@ -4,9 +4,16 @@
 #include <optional>
 #include <vector>
 
-#include "compress/two_levels.h"
+#include "tree/bvh.h"
 
 namespace bvhio {
+
+/// Many trees over one array of primitives. Their nodes below the roots share one array: sibling pairs at
+/// even indices, after their parents. `first` of an inner node, also of a root, is the index of its left
+/// child in `nodes`.
+struct Forest {
+    SharedArray<Node> roots, nodes;
+};
 
 /// The trees of a forest in which the trees follow one another: the pairs of each tree are a run of
 /// Forest::nodes, and the entries of its leaves a run of the primitives.

@@ -15,7 +15,7 @@
 #pragma once
 
 #include "compress/root_places.h"
-#include "compress/two_levels.h"
+#include "compress/forest.h"
 #include "core/shared_array.h"
 
 namespace bvhio {

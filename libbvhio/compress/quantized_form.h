@@ -14,7 +14,7 @@
 
 #include "compress/form_concept.h"
 #include "compress/root_places.h"
-#include "compress/two_levels.h"
+#include "compress/forest.h"
 
 namespace bvhio {
 

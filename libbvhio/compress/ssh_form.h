@@ -10,7 +10,7 @@
 #include <array>
 
 #include "compress/form_concept.h"
-#include "compress/two_levels.h"
+#include "compress/forest.h"
 #include "core/buffer.h"
 
 namespace bvhio {

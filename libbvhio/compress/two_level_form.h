@@ -17,6 +17,7 @@
 
 #include "compress/blases.h"
 #include "compress/tlas.h"
+#include "compress/two_levels.h"
 #include "scene/instanced_bvh.h"
 
 namespace bvhio {

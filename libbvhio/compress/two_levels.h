@@ -1,16 +1,9 @@
 // Cuts a canonical tree into a top level and many small trees, and joins them again.
 #pragma once
 
-#include "tree/bvh.h"
+#include "compress/forest.h"
 
 namespace bvhio {
-
-/// Many trees over one array of primitives. Their nodes below the roots share one array: sibling pairs at
-/// even indices, after their parents. `first` of an inner node, also of a root, is the index of its left
-/// child in `nodes`.
-struct Forest {
-    SharedArray<Node> roots, nodes;
-};
 
 /// A tree in two levels. `top` has the nodes above the cut. Each of its leaves is a tree of `bottom`: first
 /// is the tree's index, and primitiveCount is 1.

@@ -3,7 +3,7 @@
 
 #include "compress/aabb_form.h"
 #include "file/cluster_chunk.h"
-#include "file/scene_chunks.h"
+#include "scene/triangle_bounds.h"
 #include "file/topology.h"
 #include "file/tree_chunks.h"
 

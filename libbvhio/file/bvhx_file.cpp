@@ -5,6 +5,7 @@
 
 #include "core/bytes.h"
 #include "file/chunks.h"
+#include "file/content.h"
 #include "file/form_chunks.h"
 #include "file/scene_chunks.h"
 #include "file/utf8.h"

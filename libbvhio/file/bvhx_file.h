@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "compress/forms.h"
+#include "file/unknown_chunk.h"
+#include "file/write_options.h"
 #include "scene/scene.h"
 #include "tree/sah_cost.h"
 
@@ -21,13 +23,6 @@ struct ProvenanceEntry {
     bool operator==(const ProvenanceEntry&) const = default;
 };
 
-/// A chunk whose type this version does not know, kept byte for byte so that a pass can copy it.
-struct UnknownChunk {
-    uint32_t type;
-    uint32_t flags;
-    std::vector<std::byte> payload;  // decoded
-};
-
 /// The content of a file. What `readBvhx` returns is fully valid: nothing needs to be checked again.
 struct BvhxFile {
     Scene scene;
@@ -38,23 +33,6 @@ struct BvhxFile {
     /// How many of the recorded rays fetched each pair of nodes (trace/visits.h). Only for a tree in the aabb
     /// form; empty if no visits were recorded.
     SharedArray<uint32_t> visits{};
-};
-
-enum class GeometryEncoding { raw, draco };
-/// Nodes as the form has them, or only their topology: the reader fits the same boxes to the triangles again.
-enum class NodeEncoding { plain, topology };
-
-/// kept: vertices stay in order. smaller: Draco stores them in this order or in the order of first use by
-/// triangles, whichever takes fewer bytes.
-enum class VertexOrder { kept, smaller };
-
-struct WriteOptions {
-    std::string codec = "none";  // a row of codecs()
-    int codecLevel = 0;          // 0: the codec's default
-    NodeEncoding nodes = NodeEncoding::plain;
-    GeometryEncoding geometry = GeometryEncoding::raw;
-    int dracoPositionBits = 16;
-    VertexOrder dracoVertices = VertexOrder::kept;
 };
 
 /// Reads a file; "-" is standard input. A regular file is mapped, and arrays stored with codec none are used

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "file/chunks.h"
+#include "file/content.h"
 
 namespace bvhio {
 namespace {

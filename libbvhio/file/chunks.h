@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "container/container.h"
-#include "file/bvhx_file.h"
+#include "core/findings.h"
+#include "core/shared_array.h"
+#include "file/unknown_chunk.h"
+#include "scene/scene.h"
 
 namespace bvhio {
 
@@ -99,9 +102,5 @@ class ChunkSequence {
     std::vector<uint32_t> seen_;
     std::vector<UnknownChunk> unknown_;
 };
-
-/// Reads everything behind a file's header. With `collected`, findings about content gather there, and what
-/// is returned may be used only when there are none.
-BvhxFile readContent(ContainerReader& container, std::vector<Finding>* collected = nullptr);
 
 }  // namespace bvhio

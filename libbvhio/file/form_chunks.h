@@ -1,7 +1,10 @@
 // The chunks of a tree: its parameters (format-spec/chunks.md 7), then those of its form (the form's page).
 #pragma once
 
+#include "compress/forms.h"
 #include "file/chunks.h"
+#include "file/write_options.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 

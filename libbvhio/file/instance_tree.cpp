@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "compress/forest.h"
-#include "file/scene_chunks.h"
+#include "scene/triangle_bounds.h"
 
 namespace bvhio {
 

@@ -17,8 +17,7 @@ struct FormChunks<MvhForm> {
     }
     static void write(ContainerWriter& writer, const MvhForm& form) {
         ByteWriter bytes;
-        for (const Vec3& corner : {form.bounds().min, form.bounds().max})
-            for (int axis = 0; axis < 3; ++axis) bytes.f32(corner[axis]);
+        writeBox(bytes, form.bounds());
         bytes.f32(form.parameters().rule.zeta);
         bytes.f32(form.parameters().rule.zetaOfBoth);
         bytes.u32(form.parameters().rule.axes);
@@ -35,9 +34,7 @@ struct FormChunks<MvhForm> {
                                                    " triangles, but an mvh tree has each triangle once");
         const Bytes payload = chunks.expect(kFormType, kFormSize);
         ByteReader reader(payload, "chunk FORM");
-        Aabb bounds;
-        for (Vec3* corner : {&bounds.min, &bounds.max})
-            for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.f32();
+        const Aabb bounds = readBox(reader);
         MvhParameters parameters;
         MvhRule& rule = parameters.rule;
         rule.zeta = reader.f32();

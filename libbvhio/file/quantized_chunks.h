@@ -16,8 +16,7 @@ struct FormChunks<QuantizedForm> {
     }
     static void write(ContainerWriter& writer, const QuantizedForm& form) {
         ByteWriter bytes;
-        for (const Vec3& corner : {form.bounds().min, form.bounds().max})
-            for (int axis = 0; axis < 3; ++axis) bytes.f32(corner[axis]);
+        writeBox(bytes, form.bounds());
         bytes.u32(form.bits());
         bytes.zeros(kFormSize - bytes.bytes().size());
         writeChunk(writer, kFormType, bytes.bytes());
@@ -31,9 +30,7 @@ struct FormChunks<QuantizedForm> {
             chunks.fail(FindingId::treeCounts, "a leaf of a quantized tree has at most 128 references");
         const Bytes payload = chunks.expect(kFormType, kFormSize);
         ByteReader reader(payload, "chunk FORM");
-        Aabb bounds;
-        for (Vec3* corner : {&bounds.min, &bounds.max})
-            for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.f32();
+        const Aabb bounds = readBox(reader);
         const uint32_t bits = reader.u32();
         if (!reader.skipZeros(reader.remaining()))
             chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");

@@ -22,8 +22,7 @@ Parameters readForm(ChunkSequence& chunks) {
     const Bytes payload = chunks.expect(kFormType, kFormSize);
     ByteReader reader(payload, "chunk FORM");
     Parameters p;
-    for (Vec3* corner : {&p.bounds.min, &p.bounds.max})
-        for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.f32();
+    p.bounds = readBox(reader);
     p.pointerBits = reader.u32();
     p.lineSlots = reader.u32();
     p.slots = reader.u64();
@@ -128,8 +127,7 @@ SharedArray<uint32_t> readLastEntries(ChunkSequence& chunks, uint64_t references
 
 void FormChunks<QuantizedShortForm>::write(ContainerWriter& writer, const QuantizedShortForm& form) {
     ByteWriter bytes;
-    for (const Vec3& corner : {form.bounds().min, form.bounds().max})
-        for (int axis = 0; axis < 3; ++axis) bytes.f32(corner[axis]);
+    writeBox(bytes, form.bounds());
     bytes.u32(form.pointerBits());
     bytes.u32(form.lineSlots());
     bytes.u64(form.slots().size());

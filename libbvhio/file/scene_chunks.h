@@ -2,8 +2,8 @@
 #pragma once
 
 #include "file/chunks.h"
+#include "file/write_options.h"
 #include "scene/scene.h"
-#include "tree/validate.h"
 
 namespace bvhio {
 
@@ -20,9 +20,5 @@ void writeScene(ContainerWriter& writer, const StoredScene& stored);
 
 /// Reads a scene that keeps all rules of scene/scene.h. Throws FindingError if it breaks one.
 Scene readScene(ChunkSequence& chunks);
-
-/// Returns a function that computes boxes of the scene's triangles, for `validate` and `refit`. The scene
-/// must outlive it.
-PrimitiveBounds boundsOfTriangles(const Scene& scene);
 
 }  // namespace bvhio

@@ -18,8 +18,7 @@ struct FormChunks<SshForm> {
     }
     static void write(ContainerWriter& writer, const SshForm& form) {
         ByteWriter bytes;
-        for (const Vec3& corner : {form.bounds().min, form.bounds().max})
-            for (int axis = 0; axis < 3; ++axis) bytes.f32(corner[axis]);
+        writeBox(bytes, form.bounds());
         bytes.zeros(kFormSize - bytes.bytes().size());
         writeChunk(writer, kFormType, bytes.bytes());
         writeArrayChunk(writer, kNodesType, form.nodes());
@@ -30,9 +29,7 @@ struct FormChunks<SshForm> {
             chunks.fail(FindingId::treeCounts, "an ssh tree has at most 2^25 references");
         const Bytes payload = chunks.expect(kFormType, kFormSize);
         ByteReader reader(payload, "chunk FORM");
-        Aabb bounds;
-        for (Vec3* corner : {&bounds.min, &bounds.max})
-            for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.f32();
+        const Aabb bounds = readBox(reader);
         if (!reader.skipZeros(reader.remaining()))
             chunks.fail(FindingId::payloadReserved, "a reserved field is not zero");
         SharedArray<SshNode> nodes = chunks.expectArray<SshNode>(kNodesType, parameters.nodeSlots);

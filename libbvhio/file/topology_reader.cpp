@@ -4,7 +4,7 @@
 
 #include "core/buffer.h"
 #include "core/bytes.h"
-#include "file/scene_chunks.h"
+#include "scene/triangle_bounds.h"
 #include "file/topology.h"
 #include "file/topology_format.h"
 #include "tree/refit.h"

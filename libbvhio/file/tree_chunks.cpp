@@ -1,6 +1,6 @@
 #include "file/tree_chunks.h"
 
-#include "file/scene_chunks.h"
+#include "scene/triangle_bounds.h"
 #include "tree/validate.h"
 
 namespace bvhio {
@@ -26,6 +26,18 @@ void validateTree(ChunkSequence& chunks, const Bvh& bvh, const TreeParameters& p
                   uint64_t nodesOffset, size_t nodeSize, uint32_t chunk) {
     const NodesPlace nodes{chunk, nodesOffset, nodeSize};
     validateTree(chunks, bvh, parameters, scene, [&](uint64_t node) { return nodes.of(node); });
+}
+
+void writeBox(ByteWriter& bytes, const Aabb& box) {
+    for (const Vec3& corner : {box.min, box.max})
+        for (int axis = 0; axis < 3; ++axis) bytes.f32(corner[axis]);
+}
+
+Aabb readBox(ByteReader& reader) {
+    Aabb box;
+    for (Vec3* corner : {&box.min, &box.max})
+        for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.f32();
+    return box;
 }
 
 }  // namespace bvhio

@@ -6,7 +6,9 @@
 
 #include "core/bytes.h"
 #include "file/chunks.h"
+#include "scene/scene.h"
 #include "tree/depth.h"
+#include "tree/sah_cost.h"
 
 namespace bvhio {
 
@@ -42,6 +44,10 @@ void validateForm(ChunkSequence& chunks, const F& form, const TreeParameters& pa
                   const Where&... where) {
     if (!chunks.isTrusted()) validateTree(chunks, form.decode(), parameters, scene, where...);
 }
+
+/// Writes or reads a box as six floats: min x, y, z, max x, y, z.
+void writeBox(ByteWriter& bytes, const Aabb& box);
+Aabb readBox(ByteReader& reader);
 
 /// The storage of a form. There is a specialization for each, with
 /// - kCode: TREE's form field,

@@ -36,8 +36,7 @@ struct FormChunks<TwoLevelForm> {
                 TlasChunks::describe(tlas, counts);
                 bytes.u64(TlasChunks::slots(tlas));
                 bytes.u64(TlasChunks::slots(tlas) / 2);
-                for (const Vec3& corner : {counts.bounds.min, counts.bounds.max})
-                    for (int axis = 0; axis < 3; ++axis) bytes.f32(corner[axis]);
+                writeBox(bytes, counts.bounds);
                 const bool hasBits = isQuantized(TlasChunks::kCode) || isQuantized(BlasChunks::kCode);
                 bytes.u32(hasBits ? form.options().bits : 0);
                 bytes.zeros(kFormSize - bytes.bytes().size());
@@ -63,8 +62,7 @@ struct FormChunks<TwoLevelForm> {
         counts.blases = reader.u64();
         counts.areRuns = isOverMvh && !scene.isInstanced();
         if (isQuantized(tlasCode)) {
-            for (Vec3* corner : {&counts.bounds.min, &counts.bounds.max})
-                for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.f32();
+            counts.bounds = readBox(reader);
         } else {
             zero &= reader.skipZeros(sizeof(Aabb));
         }

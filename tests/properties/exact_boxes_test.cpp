@@ -10,7 +10,7 @@
 #include "common/test_rays.h"
 #include "common/test_scenes.h"
 #include "compress/forms.h"
-#include "file/scene_chunks.h"
+#include "scene/triangle_bounds.h"
 #include "stats/hashes.h"
 #include "trace/trace.h"
 #include "tree/validate.h"

@@ -9,7 +9,7 @@
 
 #include "build/builders.h"
 #include "common/test_scenes.h"
-#include "file/scene_chunks.h"
+#include "scene/triangle_bounds.h"
 #include "stats/hashes.h"
 #include "tree/validate.h"
 

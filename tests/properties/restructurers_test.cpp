@@ -12,7 +12,7 @@
 #include "common/shuffled_tree.h"
 #include "common/test_scenes.h"
 #include "core/parallel.h"
-#include "file/scene_chunks.h"
+#include "scene/triangle_bounds.h"
 #include "tree/validate.h"
 
 namespace bvhio {

@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "file/check.h"
 #include "file/chunks.h"
+#include "file/content.h"
 #include "file/scene_chunks.h"
 #include "tree/validate.h"
 #include "unit/file/support.h"

@@ -1,4 +1,4 @@
-// bvh-compress: chooses how a container's tree is stored, and squeezes its chunks.
+// bvh-compress: chooses how a container's tree is stored, and compresses its chunks.
 #include "common/form_options.h"
 #include "common/form_search.h"
 #include "common/log.h"
@@ -14,7 +14,7 @@ namespace {
 
 const ToolInfo kTool = {
     "bvh-compress",
-    "Stores a container's tree in another form, and squeezes its chunks.",
+    "Stores a container's tree in another form, and compresses its chunks.",
     "  bvh-compress scene.bvhx --codec zstd -o small.bvhx\n"
     "  bvh-compress scene.bvhx --codec topology -o smaller.bvhx\n"
     "  bvh-compress scene.bvhx --form quantized-short -o small.bvhx\n"
@@ -24,8 +24,8 @@ const ToolInfo kTool = {
 };
 
 const std::vector<NamedValue> kGeometries = {
-    {"raw", "vertices and indices as they are"},
-    {"draco", "vertices rounded to a grid; boxes follow, and triangles keep their ids"},
+    {"raw", "vertices and indices, unchanged"},
+    {"draco", "vertices rounded to a grid, boxes fitted to them; triangles keep their ids"},
 };
 
 /// What the command line asks for, but for the options of forms.
@@ -63,18 +63,19 @@ bool isPlain(const EncodedBvh& bvh) {
 /// The codecs of chunks, and one that squeezes the nodes of the aabb form as well.
 std::vector<NamedValue> codecNames() {
     std::vector<NamedValue> names = namedValues(codecs());
-    names.push_back({"topology", "zstd, and for form aabb nodes without boxes: fitted again when read"});
+    names.push_back(
+        {"topology", "zstd, and nodes without boxes, which are fitted again when read (form aabb)"});
     return names;
 }
 
 const std::vector<NamedValue> kTriangleOrders = {
-    {"source", "as they are"},
-    {"leaf", "each geometry's as leaves have them; they keep their ids"},
+    {"source", "unchanged"},
+    {"leaf", "leaf order within each geometry; ids are kept"},
 };
 const std::vector<NamedValue> kVertexOrders = {
-    {"auto", "as they are; with draco, whichever is smaller"},
-    {"source", "as they are"},
-    {"use", "as triangles name them first"},
+    {"auto", "unchanged; for draco, whichever order is smaller"},
+    {"source", "unchanged"},
+    {"use", "order of first use by triangles"},
 };
 
 /// Puts each geometry's triangles in the order in which the tree's leaves have them.
@@ -90,15 +91,13 @@ void orderTrianglesByLeaves(BvhxFile& file) {
 }
 
 void declareStorage(CommandLine& line, Choices& choices) {
-    line.choice("--codec", choices.codec, codecNames(), "what squeezes the chunks");
+    line.choice("--codec", choices.codec, codecNames(), "compression of the chunks");
     line.number("--level", choices.level, 0, 19,
-                "effort of the codec, 1 (fast) to 19 (small); 0: the codec's own default");
+                "compression level of zstd, 1 (fast) to 19 (small); 0: its default");
     line.choice("--geometry", choices.geometry, kGeometries, "how the triangles are stored");
-    line.number("--position-bits", choices.positionBits, 1, 30, "bits a coordinate, for draco");
-    line.choice("--triangle-order", choices.triangleOrder, kTriangleOrders,
-                "which triangles stand beside each other");
-    line.choice("--vertex-order", choices.vertexOrder, kVertexOrders,
-                "which vertices stand beside each other");
+    line.number("--position-bits", choices.positionBits, 1, 30, "bits per coordinate (draco)");
+    line.choice("--triangle-order", choices.triangleOrder, kTriangleOrders, "order of the triangles");
+    line.choice("--vertex-order", choices.vertexOrder, kVertexOrders, "order of the vertices");
 }
 
 /// Boxes can be left out of a file where they can be fitted again.

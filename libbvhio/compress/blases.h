@@ -5,10 +5,10 @@
 #pragma once
 
 #include "compress/aabb_form.h"
+#include "compress/forest.h"
 #include "compress/mvh_blases.h"
 #include "compress/quantized_form.h"
 #include "compress/ssh_form.h"
-#include "compress/forest.h"
 
 namespace bvhio {
 
@@ -21,7 +21,7 @@ class LinkedBlases {
   public:
     using Form = typename Links::Form;
     using Root = typename Links::Root;
-    static constexpr std::string_view kName = Form::kName;
+    static constexpr std::string_view kName = Form::kName, kSummary = Form::kSummary;
     static constexpr bool kAreRuns = false;
     static constexpr uint32_t kMaxLeafSize = Links::kMaxLeafSize;
 

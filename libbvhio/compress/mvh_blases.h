@@ -14,8 +14,8 @@
 // - All trees share one array of bytes without a table: see MvhRuns.
 #pragma once
 
-#include "compress/root_places.h"
 #include "compress/forest.h"
+#include "compress/root_places.h"
 #include "core/shared_array.h"
 
 namespace bvhio {
@@ -98,6 +98,7 @@ InsetBox cutBox(const InsetFrame& frame, const InsetBox& box, uint32_t code);
 class MvhBlases {
   public:
     static constexpr std::string_view kName = "mvh";
+    static constexpr std::string_view kSummary = "a byte per leaf, trees of their own (after Minimal BVH)";
     static constexpr bool kAreRuns = true;
 
     MvhBlases(uint32_t leafSize, SharedArray<uint8_t> codes) : shape_(leafSize), codes_(std::move(codes)) {}

@@ -12,7 +12,7 @@ namespace {
 using Options = MvhForm::Options;
 
 constexpr NamedValue kMvhBuilds[] = {
-    {"best", "the default: the best of three axes and three orders at each node"},
+    {"best", "the best of three axes and three orders at each node"},
     {"paper", "along the longest axis, with one zeta for all cuts"},
 };
 

@@ -4,8 +4,8 @@
 
 #include "compress/divide_leaves.h"
 #include "compress/inset_grid.h"
+#include "compress/reference_limit.h"
 #include "core/buffer.h"
-#include "core/error.h"
 
 namespace bvhio {
 namespace {
@@ -83,13 +83,6 @@ RootPlaces placesOf(const Aabb& bounds) {
     return {{InsetFrame(bounds)}, {bounds}, {InsetBox{}}, {}};
 }
 
-void refuseTooManyForQuantized(size_t references) {
-    if (references > QuantizedRecord::kMaxReferences)
-        throw Error(ErrorKind::unsupported, "the quantized form holds at most " +
-                                                std::to_string(QuantizedRecord::kMaxReferences) +
-                                                " references: use another --form");
-}
-
 }  // namespace
 
 std::span<const FormOption<QuantizedForm::Options>> QuantizedForm::optionTable() {
@@ -102,7 +95,7 @@ std::span<const FormOption<QuantizedForm::Options>> QuantizedForm::optionTable()
 }
 
 QuantizedForm QuantizedForm::encode(const Scene&, const Bvh& given, const Options& options) {
-    refuseTooManyForQuantized(given.primitives.size());
+    refuseMoreThan(QuantizedRecord::kMaxReferences, given.primitives.size(), kName);
     const Bvh bvh = divideLeaves(given, QuantizedRecord::kMaxLeafSize);
     const std::span<const Node> nodes = bvh.nodes;
     const Aabb& bounds = nodes[0].bounds;
@@ -124,7 +117,7 @@ Bvh QuantizedForm::decode(InsetBox* insets) const {
 
 QuantizedForm::Trees QuantizedForm::encodeTrees(const Forest& given, const RootPlaces& places,
                                                 size_t references, uint32_t bits) {
-    refuseTooManyForQuantized(references);
+    refuseMoreThan(QuantizedRecord::kMaxReferences, references, kName);
     const Forest forest = divideLeaves(given, QuantizedRecord::kMaxLeafSize);
     Buffer<QuantizedRoot> roots(forest.roots.size());
     for (size_t i = 0; i < roots.size(); ++i) {

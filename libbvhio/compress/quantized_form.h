@@ -12,9 +12,9 @@
 
 #include <array>
 
+#include "compress/forest.h"
 #include "compress/form_concept.h"
 #include "compress/root_places.h"
-#include "compress/forest.h"
 
 namespace bvhio {
 

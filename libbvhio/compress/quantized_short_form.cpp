@@ -5,6 +5,7 @@
 
 #include "compress/divide_leaves.h"
 #include "compress/inset_grid.h"
+#include "compress/reference_limit.h"
 #include "core/buffer.h"
 #include "core/error.h"
 #include "tree/clusters.h"
@@ -96,10 +97,7 @@ std::span<const FormOption<QuantizedShortForm::Options>> QuantizedShortForm::opt
 }
 
 QuantizedShortForm QuantizedShortForm::encode(const Scene&, const Bvh& given, const Options& options) {
-    if (given.primitives.size() > ShortRecord::kMaxReferences)
-        throw Error(ErrorKind::unsupported, "the quantized-short form holds at most " +
-                                                std::to_string(ShortRecord::kMaxReferences) +
-                                                " references: use another --form");
+    refuseMoreThan(ShortRecord::kMaxReferences, given.primitives.size(), kName);
     const Bvh bvh = inClusters(given, options);
     const SlotMap& map = bvh.slots;
     const Aabb& bounds = bvh.nodes[0].bounds;

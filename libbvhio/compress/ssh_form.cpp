@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "compress/divide_leaves.h"
-#include "core/error.h"
+#include "compress/reference_limit.h"
 
 namespace bvhio {
 namespace {
@@ -90,13 +90,6 @@ int separatingAxis(const Aabb& a, const Aabb& b) {
     return best;
 }
 
-void refuseTooManyForSsh(size_t references) {
-    if (references > SshNode::kMaxReferences)
-        throw Error(ErrorKind::unsupported, "the ssh form holds at most " +
-                                                std::to_string(SshNode::kMaxReferences) +
-                                                " references: use another --form");
-}
-
 /// Encodes nodes, parents first. Each node records the box that its children inherit, and their order.
 class PairEncoder {
   public:
@@ -141,7 +134,7 @@ Node decoded(const SshNode& node, Aabb box, Buffer<Node>& nodes) {
 }  // namespace
 
 SshForm SshForm::encode(const Scene&, const Bvh& bvh, const Options&) {
-    refuseTooManyForSsh(bvh.primitives.size());
+    refuseMoreThan(SshNode::kMaxReferences, bvh.primitives.size(), kName);
     const SharedArray<Node> given = divideLeaves(bvh, SshNode::kMaxLeafSize).nodes;
     PairEncoder encoder(given);
     Buffer<SshNode> nodes(given.size());
@@ -152,7 +145,7 @@ SshForm SshForm::encode(const Scene&, const Bvh& bvh, const Options&) {
 }
 
 SshForm::Trees SshForm::encodeTrees(const Forest& forest, std::span<const Aabb> boxes, size_t references) {
-    refuseTooManyForSsh(references);
+    refuseMoreThan(SshNode::kMaxReferences, references, kName);
     const Forest given = divideLeaves(forest, SshNode::kMaxLeafSize);
     PairEncoder encoder(given.nodes);
     Buffer<uint32_t> roots(given.roots.size());

@@ -9,8 +9,8 @@
 
 #include <array>
 
-#include "compress/form_concept.h"
 #include "compress/forest.h"
+#include "compress/form_concept.h"
 #include "core/buffer.h"
 
 namespace bvhio {

@@ -27,7 +27,7 @@ struct DecodedTlas {
 class AabbTlas {
   public:
     using Form = AabbForm;
-    static constexpr std::string_view kName = Form::kName;
+    static constexpr std::string_view kName = Form::kName, kSummary = Form::kSummary;
 
     explicit AabbTlas(AabbForm form) : form_(std::move(form)) {}
     const AabbForm& form() const { return form_; }
@@ -42,7 +42,7 @@ class AabbTlas {
 class QuantizedTlas {
   public:
     using Form = QuantizedForm;
-    static constexpr std::string_view kName = Form::kName;
+    static constexpr std::string_view kName = Form::kName, kSummary = Form::kSummary;
 
     explicit QuantizedTlas(QuantizedForm form) : form_(std::move(form)) {}
     const QuantizedForm& form() const { return form_; }

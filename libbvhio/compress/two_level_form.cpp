@@ -1,10 +1,10 @@
 #include "compress/two_level_form.h"
 
-#include <algorithm>
 #include <numeric>
 
 #include "compress/divide_leaves.h"
 #include "compress/forest.h"
+#include "compress/primitive_runs.h"
 #include "core/buffer.h"
 #include "core/error.h"
 #include "tree/depth.h"
@@ -17,25 +17,23 @@ SharedArray<uint32_t> oneEntry() {
     return std::vector<uint32_t>{0};
 }
 
-/// What the forms of BLASes differ in, but for how they are encoded.
-struct BlasTraits {
-    bool areRuns;          // primitives of a BLAS are one run, whose length says what tree is over it
-    uint32_t maxLeafSize;  // of trees that are not over runs
-};
-
-template <class Blases>
-constexpr BlasTraits traitsOfBlases() {
-    if constexpr (Blases::kAreRuns)
-        return {true, 0};
-    else
-        return {false, Blases::kMaxLeafSize};
+/// Whether the primitives of a BLAS are one run, whose length says what tree is over it.
+bool areRuns(BlasForm form) {
+    return form == BlasForm::mvh;
 }
 
-BlasTraits traitsOf(BlasForm form) {
-    return []<class... Forms>(const std::variant<Forms...>*, BlasForm row) {
-        constexpr BlasTraits kTable[] = {traitsOfBlases<Forms>()...};
-        return kTable[size_t(row)];
-    }(static_cast<const TwoLevelForm::Blases*>(nullptr), form);
+/// Of BLASes that are not over runs.
+uint32_t maxLeafSizeOf(BlasForm form) {
+    switch (form) {
+        case BlasForm::ssh:
+            return SshBlases::kMaxLeafSize;
+        case BlasForm::quantized:
+            return QuantizedBlases::kMaxLeafSize;
+        case BlasForm::mvh:
+        case BlasForm::aabb:
+            break;
+    }
+    return AabbBlases::kMaxLeafSize;
 }
 
 TwoLevelForm::Tlas encodeTlas(const Scene& scene, const Bvh& top, const TwoLevelForm::Options& options) {
@@ -52,78 +50,10 @@ DecodedTlas decodeTlas(const TwoLevelForm::Tlas& tlas) {
     return std::visit([](const auto& level) { return level.decode(); }, tlas);
 }
 
-/// Primitives tree by tree, each with a box that must hold it there: of a triangle that was split, what is of
-/// it in its leaf.
-struct Runs {
-    std::vector<PrimitiveRange> ranges;  // of each tree
-    std::vector<uint32_t> primitives;
-    std::vector<Aabb> boxes;
-    std::vector<uint32_t>
-        ordered;  // where a tree's run starts that has the shape of an MVH: its length, else 0
-};
-
-/// How many primitives are below a node that has the shape of an MVH; 0 if it has another.
-uint32_t countOfMvh(const MvhRuns& shape, const Forest& forest, const Node& node) {
-    if (node.isLeaf()) return shape.root({0, node.primitiveCount}).isLeaf() ? node.primitiveCount : 0;
-    const uint32_t left = countOfMvh(shape, forest, forest.nodes[node.left()]);
-    const uint32_t right = left == 0 ? 0 : countOfMvh(shape, forest, forest.nodes[node.right()]);
-    const MvhRun run = shape.root({0, left + right});
-    return right != 0 && !run.isLeaf() && shape.left(run).count == left ? run.count : 0;
-}
-
-/// Gathers each tree's primitives into one run. A tree that has the shape of an MVH, as one that was decoded,
-/// keeps its order.
-Runs gatherRuns(const Scene& scene, const Forest& forest, std::span<const uint32_t> primitives,
-                const MvhRuns& shape) {
-    Runs runs;
-    runs.primitives.reserve(primitives.size());
-    runs.boxes.reserve(primitives.size());
-    std::vector<Node> waiting;
-    for (const Node& root : forest.roots) {
-        const auto first = uint32_t(runs.primitives.size());
-        waiting = {root};
-        while (!waiting.empty()) {
-            const Node node = waiting.back();
-            waiting.pop_back();
-            if (!node.isLeaf()) {
-                waiting.push_back(forest.nodes[node.right()]);
-                waiting.push_back(forest.nodes[node.left()]);
-                continue;
-            }
-            for (const uint32_t primitive : primitives.subspan(node.first, node.primitiveCount)) {
-                Aabb box = bounds(scene.triangle(primitive));
-                for (int axis = 0; axis < 3; ++axis) {
-                    box.min[axis] = std::max(box.min[axis], node.bounds.min[axis]);
-                    box.max[axis] = std::min(box.max[axis], node.bounds.max[axis]);
-                }
-                runs.primitives.push_back(primitive);
-                runs.boxes.push_back(box);
-            }
-        }
-        runs.ranges.push_back({first, uint32_t(runs.primitives.size()) - first});
-    }
-    runs.ordered.resize(runs.primitives.size());
-    for (size_t i = 0; i < runs.ranges.size(); ++i)
-        runs.ordered[runs.ranges[i].first] = countOfMvh(shape, forest, forest.roots[i]);
-    return runs;
-}
-
-/// The top level whose leaves own the runs, not the trees over them.
-Bvh withRuns(const Bvh& top, const Runs& runs) {
-    Buffer<Node> nodes(top.nodes.size());
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        const Node& node = top.nodes[i];
-        nodes[i] = node;
-        if (node.isLeaf())
-            nodes[i] = {node.bounds, runs.ranges[node.first].first, runs.ranges[node.first].count};
-    }
-    return {std::move(nodes).share(), std::vector<uint32_t>(runs.primitives)};
-}
-
 void refuseTooDeep(const Bvh& bvh) {
     if (depthOf(bvh) > kMaxDepth)
         throw Error(ErrorKind::unsupported,
-                    "the tree's lowest leaves lie too deep to be BLASes: use another --form or a larger "
+                    "the tree's lowest leaves are too deep to become BLASes: use another --form or a larger "
                     "--blas-size");
 }
 
@@ -153,13 +83,13 @@ Bvh oneLeaf(const Aabb& meshBounds, PrimitiveRange triangles) {
 
 /// The meshes' trees as BLASes of a form.
 GatheredTrees gatherMeshes(const PlacedBlases& placed, const Scene& scene, const InstancedBvh& bvh,
-                           const BlasTraits& form) {
+                           BlasForm form) {
     std::vector<Bvh> trees;
     for (size_t i = 0; i < bvh.meshes.size(); ++i) {
         const SceneMesh& mesh = scene.meshes[i];
         Bvh tree = within(bvh.meshes[i], placed.meshBounds[i], mesh.firstTriangle);
-        if (!form.areRuns)
-            tree = divideLeaves(tree, form.maxLeafSize);  // tree by tree, as new pairs stand behind all
+        if (!areRuns(form))
+            tree = divideLeaves(tree, maxLeafSizeOf(form));  // tree by tree, as new pairs stand behind all
         else if (tree.primitives.size() != mesh.triangleCount)
             tree = oneLeaf(placed.meshBounds[i], placed.runs[i]);  // it has parts of triangles
         trees.push_back(std::move(tree));
@@ -219,11 +149,11 @@ EntryTree entryTree(const Bvh& top) {
 
 TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Options& options) {
     TwoLevels levels = cutTree(bvh, options.blasSize);
-    const bool areRuns = traitsOf(options.blasForm).areRuns;
+    const bool overRuns = areRuns(options.blasForm);
 
     // The top level: its leaves own runs of primitives, or name trees of the bottom level.
     Runs runs;
-    if (areRuns) {
+    if (overRuns) {
         runs = gatherRuns(scene, levels.bottom, bvh.primitives, MvhRuns(options.blasLeafSize));
         levels.top = withRuns(levels.top, runs);
     } else {
@@ -233,8 +163,8 @@ TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Opti
 
     // The bottom level: its roots take over the boxes that the top level's leaves have now.
     const DecodedTlas top = decodeTlas(tlas);
-    Bottom bottom = areRuns ? encodeRuns(std::move(runs), top.placesOfRuns(), options)
-                            : encodeTrees(levels.bottom, bvh.primitives, top.placesOfTrees(), options);
+    Bottom bottom = overRuns ? encodeRuns(std::move(runs), top.placesOfRuns(), options)
+                             : encodeTrees(levels.bottom, bvh.primitives, top.placesOfTrees(), options);
 
     TwoLevelForm form(std::move(tlas), std::move(bottom.blases), std::move(bottom.primitives),
                       options.blasSize);
@@ -244,16 +174,16 @@ TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Opti
 
 TwoLevelForm TwoLevelForm::encodeInstances(const Scene& scene, const InstancedBvh& bvh,
                                            const Options& options) {
-    const BlasTraits blasTraits = traitsOf(options.blasForm);
+    const bool overRuns = areRuns(options.blasForm);
     EntryTree top = entryTree(bvh.top);
     Tlas tlas = encodeTlas(scene, top.bvh, options);
 
     // A BLAS for each mesh, whose root has the mesh's box.
-    PlacedBlases placed(scene, std::move(top.instances), blasTraits.areRuns);
-    GatheredTrees meshes = gatherMeshes(placed, scene, bvh, blasTraits);
+    PlacedBlases placed(scene, std::move(top.instances), overRuns);
+    GatheredTrees meshes = gatherMeshes(placed, scene, bvh, options.blasForm);
     const RootPlaces places = placed.places();
     Bottom bottom =
-        blasTraits.areRuns
+        overRuns
             ? encodeRuns(gatherRuns(scene, meshes.forest, meshes.primitives, MvhRuns(options.blasLeafSize)),
                          places, options)
             : encodeTrees(meshes.forest, meshes.primitives, places, options);
@@ -263,7 +193,7 @@ TwoLevelForm TwoLevelForm::encodeInstances(const Scene& scene, const InstancedBv
 
 TwoLevels TwoLevelForm::decodeLevels() const {
     const DecodedTlas top = decodeTlas(tlas_);
-    const bool ownsRuns = !isInstanced() && traitsOf(BlasForm(blases_.index())).areRuns;
+    const bool ownsRuns = !isInstanced() && areRuns(BlasForm(blases_.index()));
     const RootPlaces places = isInstanced() ? placed_.places()
                               : ownsRuns    ? top.placesOfRuns()
                                             : top.placesOfTrees();
@@ -283,26 +213,11 @@ InstancedBvh TwoLevelForm::decodeInstances(const Scene& scene) const {
     return bvh;
 }
 
-PlacedBlases::PlacedBlases(const Scene& scene, SharedArray<uint32_t> leafOrder, bool areRuns)
-    : instances(std::move(leafOrder)), meshBounds(scene.meshes.size()) {
-    const std::vector<InstanceEntry> all = instanceEntries(scene);
-    for (const uint32_t instance : instances) entries.push_back(all[instance]);
-    for (size_t i = 0; i < meshBounds.size(); ++i) meshBounds[i] = scene.boundsOf(scene.meshes[i]);
-    if (areRuns)
-        for (const SceneMesh& mesh : scene.meshes) runs.push_back({mesh.firstTriangle, mesh.triangleCount});
-}
-
-RootPlaces PlacedBlases::places() const {
-    RootPlaces places{{}, meshBounds, std::vector<InsetBox>(meshBounds.size()), runs};
-    for (const Aabb& box : meshBounds) places.frames.emplace_back(box);
-    return places;
-}
-
 Bvh TwoLevelForm::decode() const {
     if (isInstanced())
         throw Error(
             ErrorKind::usage,
-            "the scene has instances, whose trees do not make one: build without --two-level for that");
+            "the scene has instances, and so more than one tree: build without --two-level for a single one");
     return joinLevels(decodeLevels(), primitives_);
 }
 

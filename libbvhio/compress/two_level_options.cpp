@@ -7,9 +7,7 @@ namespace {
 /// The names of a level's forms.
 template <class... Levels>
 constexpr std::array<NamedValue, sizeof...(Levels)> namedLevels(const std::variant<Levels...>*) {
-    std::array<NamedValue, sizeof...(Levels)> names{NamedValue{Levels::kName, ""}...};
-    names[0].summary = "the default";
-    return names;
+    return {NamedValue{Levels::kName, Levels::kSummary}...};
 }
 constexpr auto kTlasForms = namedLevels(static_cast<const TwoLevelForm::Tlas*>(nullptr));
 constexpr auto kBlasForms = namedLevels(static_cast<const TwoLevelForm::Blases*>(nullptr));

@@ -3,9 +3,9 @@
 
 #include "compress/aabb_form.h"
 #include "file/cluster_chunk.h"
-#include "scene/triangle_bounds.h"
 #include "file/topology.h"
 #include "file/tree_chunks.h"
+#include "scene/triangle_bounds.h"
 
 namespace bvhio {
 

@@ -7,9 +7,9 @@
 #include "file/mvh_chunks.h"
 #include "file/quantized_chunks.h"
 #include "file/quantized_short_chunks.h"
-#include "scene/triangle_bounds.h"
 #include "file/ssh_chunks.h"
 #include "file/two_level_chunks.h"
+#include "scene/triangle_bounds.h"
 #include "tree/refit.h"
 
 namespace bvhio {

@@ -4,9 +4,9 @@
 
 #include "core/buffer.h"
 #include "core/bytes.h"
-#include "scene/triangle_bounds.h"
 #include "file/topology.h"
 #include "file/topology_format.h"
+#include "scene/triangle_bounds.h"
 #include "tree/refit.h"
 
 namespace bvhio {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "build/builders.h"
+#include "build/median.h"
 #include "common/test_scenes.h"
 #include "scene/triangle_bounds.h"
 #include "stats/hashes.h"
@@ -81,6 +82,13 @@ TEST_P(FormsOfScene, decodeToValidTreesThatHoldTheOriginal) {
                     const EncodedBvh again = form.function(scene, decoded, {});
                     EXPECT_EQ(boundsHash(decode(again)), boundsHash(decoded));
                 }
+                EXPECT_EQ(traits.putsInClusters && decoded.nodes.size() > 2, !decoded.slots.empty());
+                if (traits.isExact) {
+                    EXPECT_EQ(boundsHash(decoded), boundsHash(bvh));
+                }
+                if (!traits.dividesLeaves && !traits.mergesLeaves) {
+                    EXPECT_EQ(decoded.nodes.size(), bvh.nodes.size());
+                }
                 if (traits.mergesLeaves) continue;  // the tree is another, or its BLASes are
                 if (!traits.keepsOrder) {
                     expectSameLeavesInLargerBoxes(bvh, decoded);
@@ -96,6 +104,19 @@ TEST_P(FormsOfScene, decodeToValidTreesThatHoldTheOriginal) {
                 }
             }
         }
+}
+
+// The tree that is given does not matter to a form that builds its own, and matters to all others.
+TEST(Forms, buildTheirOwnTreeWhereTheySaySo) {
+    const Scene scene = test::sphereScene(24, 12);
+    const Bvh one = builders()[0].function(scene, {.costs = {}, .maxLeafSize = 1});
+    const Bvh other = buildMedian(scene, {.costs = {}, .maxLeafSize = 13});
+    for (const FormChoice& form : forms()) {
+        const Bvh a = decode(form.function(scene, one, {})), b = decode(form.function(scene, other, {}));
+        EXPECT_EQ(form.function.traits.buildsOwnTree,
+                  topologyHash(a) == topologyHash(b) && boundsHash(a) == boundsHash(b))
+            << form.name;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Awkward, FormsOfScene,

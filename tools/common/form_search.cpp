@@ -44,8 +44,8 @@ void FormSearch::prepare(const CommandLine& line, const std::vector<std::string>
         throw Error(ErrorKind::usage, kLimits[0] + " and " + kLimits[1] + " exclude each other: give one");
     for (const std::string& name : line.given()) {
         if (contains(kSample, name) && !isWanted())
-            throw Error(ErrorKind::usage, name + ": is for the search: give " + kLimits[0] + ", " +
-                                              kLimits[1] + " or --pareto too");
+            throw Error(ErrorKind::usage, name + ": is for the search: also give " + kLimits[0] + ", " +
+                                              kLimits[1] + " or --pareto");
         if (choosesForm() && !contains(kLimits, name) && !contains(kSample, name) && name != "--form" &&
             !contains(others, name))
             throw Error(ErrorKind::usage,
@@ -78,9 +78,8 @@ std::string FormSearch::refusal() const {
     for (const TunedEncoding& row : rows_)
         if (row.refusal.empty() && (nearest == nullptr || value(row) < value(*nearest))) nearest = &row;
     if (nearest == nullptr) return kLimits[byBytes ? 0 : 1] + ": " + rows_.front().refusal;
-    return kLimits[byBytes ? 0 : 1] + ": none of the forms keeps to " +
-           number(byBytes ? maxBytes_ : maxSlowdown_) + ": the nearest is " + nearest->candidate.name() +
-           " with " + number(value(*nearest));
+    return kLimits[byBytes ? 0 : 1] + ": no form stays within " + number(byBytes ? maxBytes_ : maxSlowdown_) +
+           ": the nearest is " + nearest->candidate.name() + " with " + number(value(*nearest));
 }
 
 void FormSearch::assignTo(CommandLine& line) const {

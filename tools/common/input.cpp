@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -25,6 +26,21 @@ void refuseScene(std::span<const std::byte> bytes, const std::string& name) {
                 name + ": is " + article + kind + " file, not a .bvhx: run bvh-build on it first");
 }
 
+/// Copies the first bytes of standard input, which stay there; none where the system cannot.
+std::vector<std::byte> peekStandardInput() {
+    std::vector<std::byte> bytes(1 << 12);
+    ssize_t got = pread(STDIN_FILENO, bytes.data(), bytes.size(), lseek(STDIN_FILENO, 0, SEEK_CUR));
+    int copy[2];
+    if (got < 0 && pipe2(copy, O_CLOEXEC) == 0) {
+        got = tee(STDIN_FILENO, copy[1], bytes.size(), 0);
+        if (got > 0) got = read(copy[0], bytes.data(), size_t(got));
+        close(copy[0]);
+        close(copy[1]);
+    }
+    bytes.resize(size_t(std::max<ssize_t>(got, 0)));
+    return bytes;
+}
+
 }  // namespace
 
 void refuseTerminalInput(const std::string& path) {
@@ -38,8 +54,8 @@ std::string inputName(const std::string& path) {
 
 StageKind readingKind(const std::string& path) {
     struct stat status {};
-    const bool isFile = path != "-" || (fstat(STDIN_FILENO, &status) == 0 && S_ISREG(status.st_mode));
-    return isFile ? StageKind::working : StageKind::waiting;
+    const int failed = path == "-" ? fstat(STDIN_FILENO, &status) : stat(path.c_str(), &status);
+    return failed == 0 && S_ISFIFO(status.st_mode) ? StageKind::waiting : StageKind::working;
 }
 
 std::vector<std::byte> readWholeFile(const std::string& path) {
@@ -67,6 +83,7 @@ std::vector<std::byte> readWholeFile(const std::string& path) {
 }
 
 BvhxFile readContainer(const std::string& path) {
+    if (path == "-") refuseScene(peekStandardInput(), inputName(path));
     try {
         return readBvhx(path);
     } catch (const FindingError& error) {

@@ -16,7 +16,7 @@ void refuseTerminalInput(const std::string& path);
 /// "standard input" for "-", else the path: for messages.
 std::string inputName(const std::string& path);
 
-/// How a stage that reads `path` is shown: standard input is waited for unless it is a regular file.
+/// How a stage that reads `path` is shown: a pipe is waited for.
 StageKind readingKind(const std::string& path);
 
 /// All bytes of a file; "-" is standard input. Throws Error{io}.

@@ -17,6 +17,8 @@ done
 cp orchard.glb renamed.bvhx
 code bvh-trace cube.bvhx --compare renamed.bvhx
 cat orchard.glb | code bvh-stats
+cat orchard.glb | code bvh-relayout
+code bvh-trace <orchard.glb
 # A container where a scene should be.
 code bvh-build cube.bvhx -o again.bvhx
 code bvh-build <cube.bvhx -o again.bvhx

@@ -1,5 +1,5 @@
 // The planes of two siblings as insets from their parent's, for the forms whose records share them. A Record
-// has inset(side), isRights(side) and setPlane(side, inset, isRights). Sides are min x, y, z, max x, y, z.
+// has inset(side), ownerIsRight(side) and setPlane(side, inset, ownerIsRight). Sides are min x, y, z, max x, y, z.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,8 @@ class InsetGrid {
         InsetBox result = box_;
         for (uint32_t side = 0; side < 6; ++side) {
             double* const insets = side < 3 ? result.min : result.max;
-            if (uint32_t(record.isRights(side)) == child) insets[side % 3] = inset(side, record.inset(side));
+            if (uint32_t(record.ownerIsRight(side)) == child)
+                insets[side % 3] = inset(side, record.inset(side));
         }
         return result;
     }
@@ -44,8 +45,8 @@ class InsetGrid {
             const double start = plane(side, 0);
             const double outermost = std::max<double>(InsetFrame::upwards(start), coordinate(bounds_, side));
             const double toLeft = coordinate(left, side), toRight = coordinate(right, side);
-            const bool isRights = toRight > toLeft;
-            const double target = isRights ? toRight : toLeft;
+            const bool ownerIsRight = toRight > toLeft;
+            const double target = ownerIsRight ? toRight : toLeft;
             if (target <= outermost) continue;
             const double estimate = (target - start) * stepsOfUnit[side % 3];
             uint32_t steps = estimate < most_ ? uint32_t(estimate) : most_;
@@ -53,7 +54,7 @@ class InsetGrid {
             while (steps < most_ && plane(side, steps + 1) <= target) ++steps;
             // Keep the parent's plane if the new one would cut no float off the box. So a decoded tree is
             // encoded to the same records again.
-            if (plane(side, steps) > outermost) record.setPlane(side, steps, isRights);
+            if (plane(side, steps) > outermost) record.setPlane(side, steps, ownerIsRight);
         }
     }
 

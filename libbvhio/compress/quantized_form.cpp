@@ -48,10 +48,10 @@ Buffer<QuantizedRecord> encodeRecords(std::span<const Node> roots, std::span<con
 }
 
 /// Returns the node of a child with this word.
-Node nodeOf(uint32_t word, uint32_t more, const Aabb& bounds, uint32_t firstSlot) {
+Node nodeOf(uint32_t word, uint32_t highBits, const Aabb& bounds, uint32_t firstSlot) {
     if (QuantizedRecord::isLeaf(word))
         return {bounds, QuantizedRecord::firstPrimitive(word),
-                QuantizedRecord::primitiveCount(word, uint8_t(more))};
+                QuantizedRecord::primitiveCount(word, uint8_t(highBits))};
     return {bounds, 2 * QuantizedRecord::record(word) + firstSlot, 0};
 }
 
@@ -71,7 +71,7 @@ void decodeRecords(std::span<const QuantizedRoot> roots, std::span<const Quantiz
         for (uint32_t child = 0; child < 2; ++child) {
             const InsetBox box = grid.child(record, child);
             const uint32_t word = record.children[child];
-            nodes[2 * r + child] = nodeOf(word, record.more(child), places.floats(tree, box), firstSlot);
+            nodes[2 * r + child] = nodeOf(word, record.highBits(child), places.floats(tree, box), firstSlot);
             if (insets != nullptr) insets[2 * r + child] = box;
             if (!QuantizedRecord::isLeaf(word)) parents[QuantizedRecord::record(word)] = {box, tree};
         }
@@ -127,7 +127,7 @@ QuantizedForm::Trees QuantizedForm::encodeTrees(const Forest& given, const RootP
             asChild.setLeaf(0, node.first, node.primitiveCount);
         else
             asChild.setInner(0, node.left() / 2);
-        roots[i] = {asChild.children[0], asChild.more(0)};
+        roots[i] = {asChild.children[0], asChild.highBits(0)};
     }
     return {std::move(roots).share(), encodeRecords(forest.roots, forest.nodes, 0, places, bits).share()};
 }
@@ -135,7 +135,7 @@ QuantizedForm::Trees QuantizedForm::encodeTrees(const Forest& given, const RootP
 Forest QuantizedForm::decodeTrees(const Trees& trees, const RootPlaces& places, uint32_t bits) {
     Buffer<Node> roots(trees.roots.size()), nodes(2 * trees.records.size());
     for (size_t i = 0; i < roots.size(); ++i)
-        roots[i] = nodeOf(trees.roots[i].word, trees.roots[i].more, places.bounds[i], 0);
+        roots[i] = nodeOf(trees.roots[i].word, trees.roots[i].highBits, places.bounds[i], 0);
     decodeRecords(trees.roots, trees.records, 0, places, bits, nodes.data(), nullptr);
     return {std::move(roots).share(), std::move(nodes).share()};
 }

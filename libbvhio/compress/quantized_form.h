@@ -32,21 +32,21 @@ struct alignas(16) QuantizedRecord {
     uint32_t children[2];
 
     constexpr uint32_t inset(uint32_t side) const { return bytes[side + side / 3]; }
-    constexpr bool isRights(uint32_t side) const { return bytes[side < 3 ? 3 : 7] >> side % 3 & 1; }
+    constexpr bool ownerIsRight(uint32_t side) const { return bytes[side < 3 ? 3 : 7] >> side % 3 & 1; }
     /// Returns a child's 8 bits above its word: with them a cursor holds the child in 40 bits.
-    constexpr uint8_t more(uint32_t child) const { return bytes[3 + 4 * child]; }
+    constexpr uint8_t highBits(uint32_t child) const { return bytes[3 + 4 * child]; }
 
     static constexpr bool isLeaf(uint32_t word) { return word >> 31 != 0; }
     /// Returns the record of an inner node.
     static constexpr uint32_t record(uint32_t word) { return word; }
     static constexpr uint32_t firstPrimitive(uint32_t word) { return word & (kMaxReferences - 1); }
-    static constexpr uint32_t primitiveCount(uint32_t word, uint8_t more) {
-        return (uint32_t(more >> 3) << 2 | (word >> 29 & 3)) + 1;
+    static constexpr uint32_t primitiveCount(uint32_t word, uint8_t highBits) {
+        return (uint32_t(highBits >> 3) << 2 | (word >> 29 & 3)) + 1;
     }
 
-    void setPlane(uint32_t side, uint32_t inset, bool isRights) {
+    void setPlane(uint32_t side, uint32_t inset, bool ownerIsRight) {
         bytes[side + side / 3] = uint8_t(inset);
-        bytes[side < 3 ? 3 : 7] |= uint8_t(isRights << side % 3);
+        bytes[side < 3 ? 3 : 7] |= uint8_t(ownerIsRight << side % 3);
     }
     void setInner(uint32_t child, uint32_t record) { children[child] = record; }
     void setLeaf(uint32_t child, uint32_t first, uint32_t count) {
@@ -56,9 +56,9 @@ struct alignas(16) QuantizedRecord {
 };
 static_assert(sizeof(QuantizedRecord) == 16);
 
-/// The root of one of many trees: its word and `more`, as a record holds a child.
+/// The root of one of many trees: its word and `highBits`, as a record holds a child.
 struct QuantizedRoot {
-    uint32_t word, more;
+    uint32_t word, highBits;
 };
 static_assert(sizeof(QuantizedRoot) == 8);
 
@@ -109,7 +109,7 @@ class QuantizedForm {
         if (!records_.empty()) return {0, 0};
         QuantizedRecord record{};
         record.setLeaf(0, 0, uint32_t(primitives_.size()));
-        return {record.children[0], record.more(0)};
+        return {record.children[0], record.highBits(0)};
     }
 
   private:

@@ -43,11 +43,13 @@ class ShortRecord {
     constexpr uint32_t inset(uint32_t side) const {
         return words_[side / 3] >> kBits * (side % 3) & ((1u << kBits) - 1);
     }
-    constexpr bool isRights(uint32_t side) const { return words_[side / 3] >> (kOwnerBit + side % 3) & 1; }
+    constexpr bool ownerIsRight(uint32_t side) const {
+        return words_[side / 3] >> (kOwnerBit + side % 3) & 1;
+    }
 
     constexpr void setReference(uint32_t child, uint32_t value) { words_[child] |= value << kLowBits; }
-    constexpr void setPlane(uint32_t side, uint32_t inset, bool isRights) {
-        words_[side / 3] |= inset << kBits * (side % 3) | uint32_t(isRights) << (kOwnerBit + side % 3);
+    constexpr void setPlane(uint32_t side, uint32_t inset, bool ownerIsRight) {
+        words_[side / 3] |= inset << kBits * (side % 3) | uint32_t(ownerIsRight) << (kOwnerBit + side % 3);
     }
 
     const uint32_t* words() const { return words_.data(); }

@@ -115,7 +115,7 @@ struct LevelChunks<QuantizedTlas> {
                 if (QuantizedRecord::isLeaf(word))
                     checkLeaf(chunks, nodeName(2 * i + 2 + child),
                               {QuantizedRecord::firstPrimitive(word),
-                               QuantizedRecord::primitiveCount(word, records[i].more(child))},
+                               QuantizedRecord::primitiveCount(word, records[i].highBits(child))},
                               counts);
             }
         }
@@ -217,9 +217,9 @@ struct LevelChunks<QuantizedBlases> {
         auto roots = chunks.expectArray<QuantizedRoot>(kRootsType, counts.blases);
         for (size_t i = 0; i < roots.size(); ++i) {
             const bool isLeaf = QuantizedRecord::isLeaf(roots[i].word);
-            if (roots[i].more % 8 != 0 || roots[i].more > (isLeaf ? 0xFF : 0))
+            if (roots[i].highBits % 8 != 0 || roots[i].highBits > (isLeaf ? 0xFF : 0))
                 chunks.fail(FindingId::nodeField,
-                            blasName(i) + " has the value " + std::to_string(roots[i].more) +
+                            blasName(i) + " has the value " + std::to_string(roots[i].highBits) +
                                 " as the higher bits of a leaf's size, which is not allowed");
             if (!isLeaf && QuantizedRecord::record(roots[i].word) >= count)
                 chunks.fail(FindingId::childIndex,

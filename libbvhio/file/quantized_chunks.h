@@ -69,7 +69,7 @@ struct FormChunks<QuantizedForm> {
         for (uint32_t child = 0; child < 2; ++child) {
             const uint32_t word = record.children[child];
             if (QuantizedRecord::isLeaf(word)) continue;
-            if (record.more(child) >> 3 != 0)
+            if (record.highBits(child) >> 3 != 0)
                 chunks.fail(FindingId::nodeField, "record " + std::to_string(index) +
                                                       " gives a size to a child that is not a leaf");
             if (QuantizedRecord::record(word) <= index || QuantizedRecord::record(word) >= count)

@@ -112,7 +112,7 @@ class BlasStepper<QuantizedBlases> : public Stepper<QuantizedForm> {
     template <class Metrics>
     HWY_INLINE Entered<Cursor> root(const RootEntry& entry, const RayFrame& ray, Metrics& metrics) const {
         const QuantizedRoot& stored = fetchRoot(blases_, number_, metrics);
-        return {{entry.place(ray), stored.word, uint8_t(stored.more)}, entry.enter()};
+        return {{entry.place(ray), stored.word, uint8_t(stored.highBits)}, entry.enter()};
     }
 
   private:

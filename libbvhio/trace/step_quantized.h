@@ -25,7 +25,7 @@ class Stepper<QuantizedForm> {
     struct Cursor {
         PlacedBox box;
         uint32_t word;
-        uint8_t more;
+        uint8_t highBits;
     };
 
     explicit Stepper(const QuantizedForm& form)
@@ -39,7 +39,7 @@ class Stepper<QuantizedForm> {
         metrics.boxesTested(1, kFullBoxTestCost);
         const RayInterval part = ray.clip(ray.root(), tLimit);
         const QuantizedRoot stored = form_.root();
-        root = {{ray.root(), stored.word, uint8_t(stored.more)}, part.enter};
+        root = {{ray.root(), stored.word, uint8_t(stored.highBits)}, part.enter};
         return !part.isEmpty();
     }
 
@@ -57,7 +57,7 @@ class Stepper<QuantizedForm> {
         placeChildren(record, from.cursor.box, left, right);
         const EnteredOfTwo found = ray.clip(left, right, tLimit);
         const auto enter = [&](uint32_t child, Entered<Cursor>& entered) HWY_ATTR {
-            entered = {{child == 0 ? left : right, record.children[child], record.more(child)},
+            entered = {{child == 0 ? left : right, record.children[child], record.highBits(child)},
                        found.enter[child]};
         };
         return enterInOrder(found, enter, next, top, metrics);
@@ -66,7 +66,7 @@ class Stepper<QuantizedForm> {
     HWY_INLINE bool isLeaf(const Cursor& cursor) const { return QuantizedRecord::isLeaf(cursor.word); }
     HWY_INLINE PrimitiveRange primitiveRange(const Cursor& cursor) const {
         return {QuantizedRecord::firstPrimitive(cursor.word),
-                QuantizedRecord::primitiveCount(cursor.word, cursor.more)};
+                QuantizedRecord::primitiveCount(cursor.word, cursor.highBits)};
     }
 
   private:

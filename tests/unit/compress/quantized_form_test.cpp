@@ -29,11 +29,11 @@ TEST(QuantizedForm, storesInsetsOfTheChildThatHasThePlane) {
     const uint32_t insets[] = {100, 8, 0, 156, 0, 0};
     for (uint32_t side = 0; side < 6; ++side) {
         EXPECT_EQ(record.inset(side), insets[side]) << side;
-        EXPECT_EQ(record.isRights(side), side == 0) << side;
+        EXPECT_EQ(record.ownerIsRight(side), side == 0) << side;
     }
     EXPECT_TRUE(QuantizedRecord::isLeaf(record.children[1]));
     EXPECT_EQ(QuantizedRecord::firstPrimitive(record.children[1]), 3u);
-    EXPECT_EQ(QuantizedRecord::primitiveCount(record.children[1], record.more(1)), 6u);
+    EXPECT_EQ(QuantizedRecord::primitiveCount(record.children[1], record.highBits(1)), 6u);
     const Bvh decoded = form.decode();
     EXPECT_EQ(decoded.nodes[2].bounds, (Aabb{{0, 0.5f, 0}, {100, 16, 1}}));
     EXPECT_EQ(decoded.nodes[3].bounds, (Aabb{{100, 0, 0}, {256, 16, 1}}));
@@ -47,7 +47,7 @@ TEST(QuantizedForm, givesThePlaneToTheChildFurtherInside) {
                                        {{{9, 0, 0}, {256, 1, 1}}, 1, 1}},
                                       2);
     EXPECT_EQ(form.records()[0].inset(0), 9u);
-    EXPECT_TRUE(form.records()[0].isRights(0));
+    EXPECT_TRUE(form.records()[0].ownerIsRight(0));
     EXPECT_EQ(form.decode().nodes[2].bounds.min.x, 0);
 }
 

@@ -40,7 +40,7 @@ TEST(QuantizedShortForm, storesInsetsOwnersAndReferences) {
     const uint32_t insets[] = {25, 2, 0, 39, 0, 0};
     for (uint32_t side = 0; side < 6; ++side) {
         EXPECT_EQ(record.inset(side), insets[side]) << side;
-        EXPECT_EQ(record.isRights(side), side == 0) << side;
+        EXPECT_EQ(record.ownerIsRight(side), side == 0) << side;
     }
     EXPECT_EQ(record.reference(0), 256u);
     EXPECT_EQ(record.reference(1), 259u);

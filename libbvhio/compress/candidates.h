@@ -1,5 +1,5 @@
-// The encodings that are tried where the best one is wanted: forms with their options. Each form names its
-// own (kCandidates).
+// The encodings that a search for the best one tries: forms with their options. Each form lists its own in
+// kCandidates.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace bvhio {
 
-/// A row: a form, and how it is to encode.
+/// A row: a form, and its options.
 struct EncodingCandidate {
     std::string_view form;
     std::string_view parameters;  // as bvh-compress takes them, "--bits 6"; empty for the form's defaults
@@ -22,7 +22,7 @@ struct EncodingCandidate {
     }
 };
 
-/// Every form at least once; aabb, which the others are compared with, first.
+/// Returns all candidates, at least one of each form. The first is aabb, with which others are compared.
 std::span<const EncodingCandidate> encodingCandidates();
 
 }  // namespace bvhio

@@ -1,4 +1,4 @@
-// What a form must offer to store a tree. How rays step through it as stored is in trace/step_FORM.h.
+// The interface of a form, which stores a tree. trace/step_FORM.h steps rays through the stored tree.
 #pragma once
 
 #include <concepts>
@@ -21,11 +21,11 @@ struct PrimitiveRange {
 
 /// A form stores a BVH and decodes it.
 ///
-/// - Options: how to encode; `optionTable` describes them.
+/// - Options: how to encode. `optionTable` describes them.
 /// - kTraits: what the form does to a tree.
-/// - kCandidates: the options that are worth a try where the best form is wanted, as bvh-compress takes them
-/// ("--leaf-size 8"); empty text for the defaults.
-/// - encode: of a valid tree over the scene. Boxes may grow; leaves keep their triangles, but may be divided.
+/// - kCandidates: the options that a search for the best form tries, as bvh-compress takes them ("--leaf-size
+///   8"); an empty text for the defaults.
+/// - encode: encodes a valid tree over the scene. Boxes may grow. Leaves keep their triangles or are divided.
 template <class F>
 concept Form = requires(const F form, const Scene scene, const Bvh bvh, const typename F::Options options) {
     { F::kName } -> std::convertible_to<std::string_view>;
@@ -34,8 +34,8 @@ concept Form = requires(const F form, const Scene scene, const Bvh bvh, const ty
     { F::kCandidates } -> std::convertible_to<std::span<const std::string_view>>;
     { F::optionTable() } -> std::same_as<std::span<const FormOption<typename F::Options>>>;
     { F::encode(scene, bvh, options) } -> std::same_as<F>;
-    { form.options() } -> std::same_as<typename F::Options>;  // that encode another tree alike
-    { form.decode() } -> std::same_as<Bvh>;                   // boxes as reconstructed
+    { form.options() } -> std::same_as<typename F::Options>;  // to encode another tree in the same way
+    { form.decode() } -> std::same_as<Bvh>;                   // with boxes as reconstructed
     { form.primitives() } -> std::convertible_to<std::span<const uint32_t>>;  // leaf order -> triangle
     { form.nodeBytes() } -> std::same_as<size_t>;                             // in memory, nodes only
 };

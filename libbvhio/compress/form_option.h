@@ -1,5 +1,5 @@
-// How a form describes its options: command lines, provenance, benchmarks and the search for a form follow
-// from one table, which stands beside the form.
+// The description of a form's options, a table beside the form. Command lines, provenance, benchmarks and the
+// search for a form all use it.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace bvhio {
 
 enum class OptionKind : uint8_t { number, choice, text };
 
-/// The value of an option: the number, the index of the chosen name, or the text, as its kind says.
+/// The value of an option: a number, the index of the chosen name, or a text. It depends on the kind.
 struct OptionValue {
     uint32_t number = 0;
     std::string text{};
 };
 
-/// What is to be said of an option, whatever form it belongs to.
+/// The description of an option of any form.
 struct OptionInfo {
     std::string_view name{};  // "--bits"
     std::string_view help{};  // a noun phrase without the form and the default: "bits per plane"
@@ -28,22 +28,22 @@ struct OptionInfo {
     uint32_t min = 0, max = 0;                // of a number
     std::span<const NamedValue> values = {};  // of a choice
     std::string_view valueName = {};          // of a text: "auto|ONE[,BOTH]"
-    /// The part of the form that uses the option where another form has it as a whole: "mvh BLASes". Empty:
-    /// this form is the one that describes it.
+    /// The part of this form that uses the option, if another form has the option as a whole: "mvh BLASes".
+    /// Empty: this form describes the option.
     std::string_view part = {};
-    /// Tools leave out what is not for everyday use: benchmarks alone have it.
+    /// Whether tools have the option. Others are only for benchmarks.
     bool isEveryday = true;
     /// --help and provenance list options by place, then in the order of forms.
     uint32_t place = 0;
 };
 
-/// A row of a form's table: an option, and where the form's Options have it.
+/// A row of a form's table: an option, and how it is stored in the form's Options.
 template <class Options>
 struct FormOption : OptionInfo {
-    /// Throws Error{usage} for a text that means nothing.
+    /// Sets the option. Throws Error{usage} for a text without meaning.
     void (*set)(Options&, const OptionValue&);
     OptionValue (*get)(const Options&);
-    /// Whether a tree encoded with such options depends on this one.
+    /// Returns whether a tree that is encoded with these options depends on this one.
     bool (*isUsed)(const Options&) = [](const Options&) { return true; };
 };
 
@@ -52,8 +52,8 @@ template <class Class, class Value>
 Class classOfMember(Value Class::*);
 }  // namespace detail
 
-/// A row for a number, or an enumeration whose values are the indices of the names, that is a member of
-/// Options.
+/// Returns a row for a member of Options: a number, or an enumeration whose values are the indices of the
+/// names.
 template <auto Member, class Options = decltype(detail::classOfMember(Member))>
 constexpr FormOption<Options> memberOption(
     const OptionInfo& info,

@@ -1,4 +1,4 @@
-// Options of forms by their names and values, as command lines have them.
+// Reads and writes options of forms as texts of command lines.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace bvhio {
 
-/// The options of the form called `form` that words such as "--tlas-form aabb --blas-size 16" ask for; those
-/// that are not named have their defaults. Throws Error{usage} in one line for an unknown form, an option
-/// that the form does not have, and a value that is out of range.
+/// Parses options of the form called `form`, such as "--tlas-form aabb --blas-size 16". Options that are not
+/// in the text have their defaults. Throws Error{usage} for an unknown form, an option that the form does not
+/// have, and a value out of range.
 EncodeOptions parseEncodeOptions(std::string_view form, std::string_view words);
 
-/// The default of an option as the command line takes it: "8", "quantized" or "auto".
+/// Returns the default of an option as on a command line: "8", "quantized" or "auto".
 template <class Options>
 std::string defaultText(const FormOption<Options>& option) {
     const OptionValue value = option.get(Options{});
@@ -28,7 +28,7 @@ std::string defaultText(const FormOption<Options>& option) {
     return value.text;
 }
 
-/// The index of the name among the option's values. Throws Error{usage} when it is none of them.
+/// Returns the index of the name among the option's values. Throws Error{usage} if it is not one of them.
 uint32_t indexOfValue(const OptionInfo& option, std::string_view name);
 
 }  // namespace bvhio

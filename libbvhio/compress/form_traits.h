@@ -1,25 +1,25 @@
-// What forms do to a tree. Whoever needs to know asks for a trait, not for a form's name, so that a new form
-// has its answers in its own file.
+// What forms do to a tree. Code that depends on it asks for a trait, not for the name of a form. So a new
+// form has all answers in its own file.
 #pragma once
 
 namespace bvhio {
 
-/// Of the tree that comes back when a form's encoding of a valid tree is decoded.
+/// What happens to a valid tree that a form encodes and decodes.
 struct FormTraits {
-    /// Every box is the one that was encoded, bit by bit. So a file can leave them out and fit them again.
+    /// Every box is unchanged, bit by bit. So a file can leave boxes out, and a reader can fit them again.
     bool isExact = false;
-    /// The primitive array is the one that was encoded.
+    /// The primitive array is unchanged.
     bool keepsOrder = false;
-    /// Large leaves may have become several.
+    /// Large leaves may be divided.
     bool dividesLeaves = false;
-    /// Leaves may have been joined, and their triangles divided anew: where a triangle was split, its parts
-    /// are cut from the boxes of those leaves.
+    /// Leaves may be joined, and their triangles divided in another way. Parts of a split triangle are then
+    /// cut from the boxes of the given leaves.
     bool mergesLeaves = false;
-    /// The form makes a tree from the scene's triangles and takes nothing from the one that is given.
+    /// The form builds its own tree from the scene's triangles, and uses nothing of the given tree.
     bool buildsOwnTree = false;
-    /// Pairs are in clusters (tree/bvh.h: SlotMap): the tree's own where it has some, else new ones.
+    /// Pairs are in clusters (tree/bvh.h: SlotMap): the given tree's if it has any, otherwise new ones.
     bool putsInClusters = false;
-    /// The form also holds a tree over the instances of a scene and the trees of its meshes: it has
+    /// The form can also hold a tree over the instances of a scene and the trees of its meshes. Then it has
     /// encodeInstances and decodeInstances.
     bool holdsInstances = false;
 };

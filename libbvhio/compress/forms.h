@@ -1,4 +1,4 @@
-// THE list of forms. A new form is its own file and one line here.
+// The list of forms. A new form takes its own file and one line here.
 #pragma once
 
 #include <array>
@@ -28,18 +28,18 @@ struct OptionsOfForms<std::variant<Forms...>> {
 };
 }  // namespace detail
 
-/// Options of one of the forms; or of none, which stands for any form's defaults.
+/// Options of one of the forms. Without a form, they stand for the defaults of any form.
 using EncodeOptions = detail::OptionsOfForms<EncodedBvh>::Type;
 
-/// Those of a form. Throws Error{usage} when they are another form's.
+/// Returns the options of a form. Throws Error{usage} if they are another form's.
 template <class Form>
 typename Form::Options optionsFor(const EncodeOptions& options) {
     if (std::holds_alternative<std::monostate>(options)) return {};
     if (const auto* own = std::get_if<typename Form::Options>(&options)) return *own;
-    throw Error(ErrorKind::usage, "the options are another form's, not " + std::string(Form::kName) + "'s");
+    throw Error(ErrorKind::usage, "the options are not for form " + std::string(Form::kName));
 }
 
-/// How a form encodes, and what it does to a tree.
+/// The encoder of a form, and what the form does to a tree.
 struct FormMethod {
     EncodedBvh (*encode)(const Scene&, const Bvh&, const EncodeOptions&);
     FormTraits traits;
@@ -63,14 +63,14 @@ constexpr std::array<FormChoice, sizeof...(Forms)> formTable(const std::variant<
 }
 }  // namespace detail
 
-/// All forms, the default first.
+/// Returns all forms, the default first.
 inline std::span<const FormChoice> forms() {
     static constexpr auto kTable = detail::formTable(static_cast<const EncodedBvh*>(nullptr));
     return kTable;
 }
 
-/// Calls function(std::type_identity<F>()) for the form called `name`. Throws Error{usage} that lists the
-/// names when there is none.
+/// Calls function(std::type_identity<F>()) for the form called `name`. Throws Error{usage} with a list of all
+/// names if there is no such form.
 template <size_t I = 0, class Function>
 auto visitForm(std::string_view name, const Function& function) {
     using F = std::variant_alternative_t<I, EncodedBvh>;
@@ -80,35 +80,35 @@ auto visitForm(std::string_view name, const Function& function) {
     return function(std::type_identity<F>());
 }
 
-/// The name of the form that holds the tree.
+/// Returns the name of the form that stores the tree.
 inline std::string_view formNameOf(const EncodedBvh& bvh) {
     return std::visit([](const auto& form) { return form.kName; }, bvh);
 }
 
-/// What that form does to a tree.
+/// Returns what that form does to a tree.
 inline FormTraits traitsOf(const EncodedBvh& bvh) {
     return std::visit([](const auto& form) { return form.kTraits; }, bvh);
 }
 
-/// What encodes another tree alike.
+/// Returns the options that encode another tree in the same way.
 inline EncodeOptions optionsOf(const EncodedBvh& bvh) {
     return std::visit([](const auto& form) { return EncodeOptions(form.options()); }, bvh);
 }
 
-/// The tree itself where the form stores it as it is; else null.
+/// Returns the tree itself if the form stores it unchanged, otherwise null.
 inline const Bvh* canonicalTree(const EncodedBvh& bvh) {
     const auto* aabb = std::get_if<AabbForm>(&bvh);
     return aabb != nullptr ? &aabb->bvh() : nullptr;
 }
 
-/// Whether the tree is over the instances of a scene, and trees over its meshes: then it is in the two-level
-/// form.
+/// Returns whether this is a tree over the instances of a scene, with trees over its meshes. Such trees are
+/// in the two-level form.
 inline bool isInstanced(const EncodedBvh& bvh) {
     const auto* levels = std::get_if<TwoLevelForm>(&bvh);
     return levels && levels->isInstanced();
 }
 
-/// The canonical tree, boxes as the form reconstructs them.
+/// Returns the canonical tree, with boxes as the form reconstructs them.
 inline Bvh decode(const EncodedBvh& bvh) {
     return std::visit([](const auto& form) { return form.decode(); }, bvh);
 }

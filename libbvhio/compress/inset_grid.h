@@ -1,5 +1,5 @@
 // The planes of two siblings as insets from their parent's, for the forms whose records share them. A Record
-// has inset(side), ownerIsRight(side) and setPlane(side, inset, ownerIsRight). Sides are min x, y, z, max x, y, z.
+// has inset(side), ownerIsRight(side) and setPlane(side, inset, ownerIsRight); sides are min xyz, max xyz.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Where the instances of a scene enter the BLASes of its meshes.
+// The places of a scene's instances, by which rays enter the BLASes of its meshes.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace bvhio {
 
-/// What instances need to be entered, in the order of the top level's leaves.
+/// The data by which rays enter instances, in the order of the top level's leaves.
 struct PlacedBlases {
-    SharedArray<uint32_t> instances;     // which instance of the scene the entry is
-    std::vector<InstanceEntry> entries;  // from the scene, so not stored again
-    std::vector<Aabb> meshBounds;        // the boxes of BLASes' roots
-    std::vector<PrimitiveRange> runs;    // where BLASes are runs: the meshes' triangles; else empty
+    SharedArray<uint32_t> instances;     // the scene's instance of each entry
+    std::vector<InstanceEntry> entries;  // computed from the scene, so files do not store them
+    std::vector<Aabb> meshBounds;        // the boxes of the BLASes' roots
+    std::vector<PrimitiveRange> runs;    // of the meshes' triangles, if BLASes are runs; otherwise empty
 
     PlacedBlases() = default;
     PlacedBlases(const Scene& scene, SharedArray<uint32_t> leafOrder, bool areRuns);
@@ -22,7 +22,7 @@ struct PlacedBlases {
         return entries.size() * (sizeof(InstanceEntry) + sizeof(uint32_t)) +
                meshBounds.size() * sizeof(Aabb) + runs.size() * sizeof(PrimitiveRange);
     }
-    /// Of the BLASes' roots.
+    /// Returns the places of the BLASes' roots.
     RootPlaces places() const;
 };
 

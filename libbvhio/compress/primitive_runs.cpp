@@ -7,7 +7,7 @@
 namespace bvhio {
 namespace {
 
-/// How many primitives are below a node that has the shape of an MVH; 0 if it has another.
+/// Returns the number of primitives below a node if its subtree has the shape of an MVH, otherwise 0.
 uint32_t countOfMvh(const MvhRuns& shape, const Forest& forest, const Node& node) {
     if (node.isLeaf()) return shape.root({0, node.primitiveCount}).isLeaf() ? node.primitiveCount : 0;
     const uint32_t left = countOfMvh(shape, forest, forest.nodes[node.left()]);

@@ -1,4 +1,4 @@
-// The primitives of many trees, tree by tree: what BLASes in the mvh form are made over.
+// The primitives of many trees, tree by tree, from which BLASes in the mvh form are made.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace bvhio {
 
-/// Primitives tree by tree, each with a box that must hold it there: of a triangle that was split, what is of
-/// it in its leaf.
+/// Primitives tree by tree, each with the box that its leaf must hold. For a part of a split triangle, this
+/// is the part of the triangle's box in its leaf.
 struct Runs {
     std::vector<PrimitiveRange> ranges;  // of each tree
     std::vector<uint32_t> primitives;
@@ -20,12 +20,12 @@ struct Runs {
         ordered;  // where a tree's run starts that has the shape of an MVH: its length, else 0
 };
 
-/// Gathers each tree's primitives into one run. A tree that has the shape of an MVH, as one that was decoded,
+/// Gathers each tree's primitives into one run. A tree that has the shape of an MVH, such as a decoded one,
 /// keeps its order.
 Runs gatherRuns(const Scene& scene, const Forest& forest, std::span<const uint32_t> primitives,
                 const MvhRuns& shape);
 
-/// The top level whose leaves own the runs, not the trees over them.
+/// Returns the top level with leaves that own the runs, instead of the trees over them.
 Bvh withRuns(const Bvh& top, const Runs& runs);
 
 }  // namespace bvhio

@@ -1,4 +1,5 @@
-// The top level of the two-level form: a tree in one of the other forms, in whose leaves BLASes are entered.
+// The top level of the two-level form: a tree in one of the other forms. A ray in one of its leaves enters a
+// BLAS.
 #pragma once
 
 #include <vector>
@@ -9,17 +10,17 @@
 
 namespace bvhio {
 
-/// A top level as a tree, and its boxes as insets, too, by node.
+/// A top level as a tree, and the boxes of its nodes as insets.
 struct DecodedTlas {
     Bvh bvh;
     std::vector<InsetBox> insets;
 
-    /// Where the trees have their roots that leaves name: a leaf's first entry is the index of its tree.
+    /// Returns the places of the roots of trees, if a leaf's first entry is the index of its tree.
     RootPlaces placesOfTrees() const;
-    /// The same where a leaf owns the run of primitives that its tree is over: trees count in the order of
-    /// the leaves.
+    /// Returns the places of the roots of trees, if a leaf owns the run of primitives that its tree is over.
+    /// Trees are in the order of the leaves.
     RootPlaces placesOfRuns() const;
-    /// The tree with leaves that name the trees over their runs, as for placesOfTrees.
+    /// Returns the tree with leaves that refer to the trees over their runs, as for placesOfTrees.
     Bvh withRunsNumbered() const;
 };
 

@@ -12,17 +12,17 @@
 namespace bvhio {
 namespace {
 
-/// What a top level of one leaf owns: the one BLAS.
+/// Returns the primitive array of a top level of one leaf: the only BLAS.
 SharedArray<uint32_t> oneEntry() {
     return std::vector<uint32_t>{0};
 }
 
-/// Whether the primitives of a BLAS are one run, whose length says what tree is over it.
+/// Returns whether the primitives of a BLAS are one run, whose length alone gives the shape of its tree.
 bool areRuns(BlasForm form) {
     return form == BlasForm::mvh;
 }
 
-/// Of BLASes that are not over runs.
+/// Returns the largest leaf of BLASes that are not over runs.
 uint32_t maxLeafSizeOf(BlasForm form) {
     switch (form) {
         case BlasForm::ssh:
@@ -57,8 +57,8 @@ void refuseTooDeep(const Bvh& bvh) {
                     "--blas-size");
 }
 
-/// A mesh's tree as a BLAS: primitives count through the scene, the root has the mesh's box, and no other box
-/// leaves that.
+/// Returns a mesh's tree as a BLAS: its primitives count through the scene, its root has the mesh's box, and
+/// all other boxes are clipped to this box.
 Bvh within(const Bvh& bvh, const Aabb& meshBounds, uint32_t firstTriangle) {
     Buffer<Node> nodes(bvh.nodes.size());
     for (size_t i = 0; i < nodes.size(); ++i) {
@@ -73,7 +73,7 @@ Bvh within(const Bvh& bvh, const Aabb& meshBounds, uint32_t firstTriangle) {
     return {std::move(nodes).share(), std::move(primitives)};
 }
 
-/// A mesh without a tree: all triangles in one leaf, which is larger than leaves may be.
+/// Returns a single leaf with all triangles of a mesh. It may be larger than leaves of valid trees.
 Bvh oneLeaf(const Aabb& meshBounds, PrimitiveRange triangles) {
     AlignedVector<Node> nodes{{meshBounds, 0, triangles.count}, {}};
     std::vector<uint32_t> primitives(triangles.count);
@@ -81,7 +81,7 @@ Bvh oneLeaf(const Aabb& meshBounds, PrimitiveRange triangles) {
     return {std::move(nodes), std::move(primitives)};
 }
 
-/// The meshes' trees as BLASes of a form.
+/// Returns the meshes' trees as BLASes of a form.
 GatheredTrees gatherMeshes(const PlacedBlases& placed, const Scene& scene, const InstancedBvh& bvh,
                            BlasForm form) {
     std::vector<Bvh> trees;
@@ -89,15 +89,15 @@ GatheredTrees gatherMeshes(const PlacedBlases& placed, const Scene& scene, const
         const SceneMesh& mesh = scene.meshes[i];
         Bvh tree = within(bvh.meshes[i], placed.meshBounds[i], mesh.firstTriangle);
         if (!areRuns(form))
-            tree = divideLeaves(tree, maxLeafSizeOf(form));  // tree by tree, as new pairs stand behind all
+            tree = divideLeaves(tree, maxLeafSizeOf(form));  // tree by tree: new pairs go after all others
         else if (tree.primitives.size() != mesh.triangleCount)
-            tree = oneLeaf(placed.meshBounds[i], placed.runs[i]);  // it has parts of triangles
+            tree = oneLeaf(placed.meshBounds[i], placed.runs[i]);  // the tree has parts of split triangles
         trees.push_back(std::move(tree));
     }
     return gatherTrees(trees);
 }
 
-/// The bottom level, and the primitives that it is over.
+/// A bottom level, and its primitives.
 struct Bottom {
     TwoLevelForm::Blases blases;
     SharedArray<uint32_t> primitives;
@@ -126,10 +126,10 @@ Bottom encodeTrees(const Forest& forest, const SharedArray<uint32_t>& primitives
     return {AabbBlases::encode(forest, places, references, {}), primitives};
 }
 
-/// The top level of an instanced scene, whose leaves name entries: those follow each other as the leaves do.
+/// The top level of an instanced scene. Its leaves refer to entries, which are in the order of the leaves.
 struct EntryTree {
     Bvh bvh;
-    SharedArray<uint32_t> instances;  // that the entries stand for
+    SharedArray<uint32_t> instances;  // of the entries
 };
 
 EntryTree entryTree(const Bvh& top) {
@@ -151,7 +151,7 @@ TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Opti
     TwoLevels levels = cutTree(bvh, options.blasSize);
     const bool overRuns = areRuns(options.blasForm);
 
-    // The top level: its leaves own runs of primitives, or name trees of the bottom level.
+    // The top level: its leaves own runs of primitives, or refer to trees of the bottom level.
     Runs runs;
     if (overRuns) {
         runs = gatherRuns(scene, levels.bottom, bvh.primitives, MvhRuns(options.blasLeafSize));
@@ -161,14 +161,14 @@ TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Opti
     }
     Tlas tlas = encodeTlas(scene, levels.top, options);
 
-    // The bottom level: its roots take over the boxes that the top level's leaves have now.
+    // The bottom level: its roots have the boxes of the top level's leaves, which encoding may have enlarged.
     const DecodedTlas top = decodeTlas(tlas);
     Bottom bottom = overRuns ? encodeRuns(std::move(runs), top.placesOfRuns(), options)
                              : encodeTrees(levels.bottom, bvh.primitives, top.placesOfTrees(), options);
 
     TwoLevelForm form(std::move(tlas), std::move(bottom.blases), std::move(bottom.primitives),
                       options.blasSize);
-    refuseTooDeep(form.decode());  // BLASes may be deeper than what they stand for
+    refuseTooDeep(form.decode());  // BLASes may be deeper than the subtrees they replace
     return form;
 }
 
@@ -217,7 +217,7 @@ Bvh TwoLevelForm::decode() const {
     if (isInstanced())
         throw Error(
             ErrorKind::usage,
-            "the scene has instances, and so more than one tree: build without --two-level for a single one");
+            "the scene has instances, so it has several trees: build without --two-level for a single tree");
     return joinLevels(decodeLevels(), primitives_);
 }
 

@@ -1,14 +1,15 @@
-// The two-level form: the top of the tree (TLAS) in one form, and below each of its leaves a small tree
-// (BLAS) in another, all BLASes in one array. After the two-level MVH of P. Bauszat, M. Eisemann and M.
+// The two-level form: the top of the tree (TLAS) is in one form, and below each of its leaves a small tree
+// (BLAS) is in another. All BLASes share one array. After the two-level MVH of P. Bauszat, M. Eisemann and M.
 // Magnor, "The Minimal Bounding Volume Hierarchy", VMV 2010, whose top has full nodes and whose bottom has
-// their minimal ones: the few nodes that every ray meets may be large, the many that few rays meet are small.
+// their minimal ones: the few nodes that every ray visits may be large, and the many that few rays visit are
+// small.
 //
 // The same form holds instances (after S. G. Rubin and T. Whitted, "A 3-Dimensional Representation for Fast
-// Rendering of Complex Scenes", SIGGRAPH 1980): then BLASes are trees over the scene's meshes, each in the
-// mesh's own space, and a leaf of the top level is an instance that enters one of them.
+// Rendering of Complex Scenes", SIGGRAPH 1980). Then BLASes are trees over the scene's meshes, each in the
+// mesh's own space, and a leaf of the top level is an instance that refers to one of them.
 //
-// Departures: either level may be in several forms, a BLAS takes over its root's box from the leaf above it,
-// and the tree is cut where subtrees have at most a given number of primitives.
+// Departures: each level may be in one of several forms, the root of a BLAS has the box of the leaf above it,
+// and the tree is cut into subtrees of at most a given number of primitives.
 #pragma once
 
 #include <array>
@@ -32,7 +33,7 @@ class TwoLevelForm {
     static constexpr std::string_view kName = "two-level";
     static constexpr std::string_view kSummary =
         "a top level over many small trees, each in a form of its own";
-    /// Forms of levels differ: what one of them may do counts.
+    /// The levels may be in any of their forms, so a trait is set if one of these forms has it.
     static constexpr FormTraits kTraits{.dividesLeaves = true, .mergesLeaves = true, .holdsInstances = true};
     static constexpr std::array<std::string_view, 7> kCandidates{
         "--tlas-form quantized --blas-form mvh --blas-size 16",
@@ -52,16 +53,16 @@ class TwoLevelForm {
         bool operator==(const Options&) const = default;
     };
     static std::span<const FormOption<Options>> optionTable();
-    /// Both levels in the aabb form, which keeps all boxes: how instances are built.
+    /// Returns options for both levels in the aabb form, in which instances are built. It keeps all boxes.
     static Options exactLevels() { return {.tlasForm = TlasForm::aabb, .blasForm = BlasForm::aabb}; }
 
     /// In the order of TlasForm and BlasForm.
     using Tlas = std::variant<QuantizedTlas, AabbTlas>;
     using Blases = std::variant<MvhBlases, SshBlases, QuantizedBlases, AabbBlases>;
 
-    /// Leaves of `tlas` have one entry each: the index of a BLAS, or of an entry of `placed`; or, without
-    /// that, where BLASes are runs, the run of primitives that is one. Where both levels are quantized, their
-    /// planes have as many bits. As in format-spec/two-level.md.
+    /// Each leaf of `tlas` has one entry: the index of an entry of `placed`, or without `placed`, of a BLAS.
+    /// If BLASes are runs, and without `placed`, a leaf owns the run of primitives of its BLAS instead. If
+    /// both levels are quantized, their planes have the same number of bits. As in format-spec/two-level.md.
     TwoLevelForm(Tlas tlas, Blases blases, SharedArray<uint32_t> primitives, uint32_t blasSize,
                  PlacedBlases placed = {})
         : tlas_(std::move(tlas)),
@@ -70,19 +71,19 @@ class TwoLevelForm {
           blasSize_(blasSize),
           placed_(std::move(placed)) {}
 
-    /// O(n). Throws Error{unsupported} where the forms of the levels do.
+    /// Encodes a valid tree. O(n). Throws Error{unsupported} if a form of a level does.
     static TwoLevelForm encode(const Scene& scene, const Bvh& bvh, const Options& options);
 
-    /// Of valid trees over an instanced scene. Throws Error{unsupported} where the forms of the levels do.
+    /// Encodes valid trees over an instanced scene. Throws Error{unsupported} if a form of a level does.
     static TwoLevelForm encodeInstances(const Scene& scene, const InstancedBvh& bvh, const Options& options);
 
-    /// The nodes of the top level, those of the bottom level behind them. Throws Error{usage} when the form
-    /// holds instances: their trees do not make one.
+    /// Decodes to one tree: the nodes of the top level, followed by those of the bottom level. Throws
+    /// Error{usage} if the form holds instances, whose trees do not form one tree.
     Bvh decode() const;
     bool isInstanced() const { return !placed_.empty(); }
-    /// The trees of an instanced scene.
+    /// Decodes to the trees of an instanced scene.
     InstancedBvh decodeInstances(const Scene& scene) const;
-    /// Both levels as they lie; leaves of the top name BLASes, or entries of `placed`.
+    /// Decodes both levels, as stored. Leaves of the top refer to BLASes, or to entries of `placed`.
     TwoLevels decodeLevels() const;
     const PlacedBlases& placed() const { return placed_; }
     const Tlas& tlas() const { return tlas_; }
@@ -108,7 +109,7 @@ constexpr std::array<std::string_view, sizeof...(Levels)> formNames(const std::v
 }
 }  // namespace detail
 
-/// The names of the forms that a level can be in, by TlasForm or BlasForm.
+/// Returns the names of the forms of a level, by TlasForm or BlasForm.
 template <class LevelForm>
 std::span<const std::string_view> levelForms() {
     using Level =

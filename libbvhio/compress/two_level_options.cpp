@@ -1,10 +1,10 @@
-// The options of the two-level form, as command lines have them.
+// The table of the two-level form's options.
 #include "compress/two_level_form.h"
 
 namespace bvhio {
 namespace {
 
-/// The names of a level's forms.
+/// Returns the names of a level's forms.
 template <class... Levels>
 constexpr std::array<NamedValue, sizeof...(Levels)> namedLevels(const std::variant<Levels...>*) {
     return {NamedValue{Levels::kName, Levels::kSummary}...};

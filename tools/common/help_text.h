@@ -7,12 +7,9 @@
 #include <string>
 #include <string_view>
 
-namespace bvhio {
+#include "core/named_value.h"
 
-/// One allowed value of an option and what it means.
-struct NamedValue {
-    std::string_view name, summary;
-};
+namespace bvhio {
 
 /// `help` with " (default VALUE)" behind it, or alone when `value` is empty.
 std::string withDefault(const std::string& help, const std::string& value);

@@ -4,8 +4,8 @@
 #include "common/log.h"
 #include "common/pass.h"
 #include "common/run_tool.h"
-#include "compress/exact_boxes.h"
 #include "container/codecs.h"
+#include "file/change_form.h"
 #include "scene/scene_order.h"
 
 using namespace bvhio;
@@ -38,26 +38,12 @@ struct Choices {
     bool isTopology() const { return codec == "topology"; }
 };
 
-const FormTraits& traitsOf(std::string_view form) {
-    return choose(forms(), "form", form).function.traits;
-}
-
-/// The file's tree with the boxes that it is about: those of a compact form are larger.
-Bvh exactTree(const BvhxFile& file) {
-    const Bvh bvh = decode(file.bvh);
-    return traitsOf(file.bvh).isExact ? bvh : withExactBoxes(file.scene, bvh);
-}
-
-/// What `form` is made from: boxes as the file's form has them for an exact form, which decodes; else exact
-/// ones, so that they do not grow from one compact form to the next.
-Bvh treeFor(std::string_view form, const BvhxFile& file) {
-    return traitsOf(form).isExact ? decode(file.bvh) : exactTree(file);
-}
-
-/// Whether the nodes are as bvh-build leaves them: all with full boxes.
-bool isPlain(const EncodedBvh& bvh) {
-    return traitsOf(bvh).isExact ||
-           (isInstanced(bvh) && optionsOf(bvh) == EncodeOptions(TwoLevelForm::exactLevels()));
+/// Logs what the form will do to the tree though nobody asked for it.
+void announce(const BvhxFile& file, const std::string& form) {
+    const FormTraits& traits = traitsOf(form);
+    if (traits.putsInClusters && decode(file.bvh).slots.empty())
+        logInfo("the tree is put in clusters as bvh-relayout --layout clusters does");
+    if (traits.buildsOwnTree) logInfo(form + " builds a tree of its own from the triangles");
 }
 
 /// The codecs of chunks, and one that squeezes the nodes of the aabb form as well.
@@ -77,18 +63,6 @@ const std::vector<NamedValue> kVertexOrders = {
     {"source", "unchanged"},
     {"use", "order of first use by triangles"},
 };
-
-/// Puts each geometry's triangles in the order in which the tree's leaves have them.
-void orderTrianglesByLeaves(BvhxFile& file) {
-    Bvh bvh = decode(file.bvh);
-    ReorderedScene reordered = withTrianglesInOrder(file.scene, bvh.primitives);
-    AlignedVector<uint32_t> primitives(bvh.primitives.begin(), bvh.primitives.end());
-    for (uint32_t& primitive : primitives) primitive = reordered.newIndex[primitive];
-    bvh.primitives = std::move(primitives);
-    file.scene = std::move(reordered.scene);
-    file.bvh = choose(forms(), "form", formNameOf(file.bvh)).function(file.scene, bvh, optionsOf(file.bvh));
-    file.unknownChunks.clear();  // they may know triangles by their old indices
-}
 
 void declareStorage(CommandLine& line, Choices& choices) {
     line.choice("--codec", choices.codec, codecNames(), "compression of the chunks");
@@ -123,50 +97,15 @@ bool searchForm(FormSearch& search, CommandLine& line, const std::string& form, 
     return true;
 }
 
-/// Settles the form where none was asked for, and returns the options that are to be when none are given. A
-/// compact form stays what it is.
-EncodeOptions settleForm(std::string& form, const BvhxFile& file) {
-    const bool isInstanced = file.scene.isInstanced();
-    if (form.empty() && !isPlain(file.bvh)) {
-        form = formNameOf(file.bvh);
-        return optionsOf(file.bvh);
-    }
-    if (form.empty()) form = isInstanced ? TwoLevelForm::kName : QuantizedForm::kName;
-    if (isInstanced && traitsOf(form).holdsInstances)
-        return TwoLevelForm::Options{.blasForm = BlasForm::quantized};  // for large trees mvh is slow
-    return {};
-}
-
-/// Stores both levels of an instanced scene's trees in other forms.
-void encodeInstances(BvhxFile& file, const std::string& form, const EncodeOptions& options, bool cuts) {
+/// Refuses what an instanced scene cannot have.
+void checkInstances(const CommandLine& line, const std::string& form) {
     if (!traitsOf(form).holdsInstances)
         throw Error(ErrorKind::usage, "--form " + form +
                                           ": the scene has instances: use two-level, or build without "
                                           "--two-level");
-    if (cuts)
+    if (line.isGiven("--blas-size"))
         throw Error(ErrorKind::usage,
                     "--blas-size: the scene has instances, whose meshes are BLASes whole: leave it out");
-    const EncodeOptions given = optionsOf(file.bvh), exact = TwoLevelForm::exactLevels();
-    if (given == options) return;
-    InstancedBvh trees = std::get<TwoLevelForm>(file.bvh).decodeInstances(file.scene);
-    if (given != exact && options != exact)
-        trees = mapTrees(file.scene, trees, [](const Scene& scene, const Bvh& tree, bool) {
-            return withExactBoxes(scene, tree);
-        });
-    file.bvh = TwoLevelForm::encodeInstances(file.scene, trees, optionsFor<TwoLevelForm>(options));
-    dropChunksThatDoNotSurvive(file, Change::reordered);
-}
-
-/// Stores the tree in another form, unless it is so already.
-void encodeTree(BvhxFile& file, const std::string& form, const EncodeOptions& options) {
-    if (formNameOf(file.bvh) == form && optionsOf(file.bvh) == options) return;
-    const FormMethod& method = choose(forms(), "form", form).function;
-    const Bvh bvh = treeFor(form, file);
-    if (method.traits.putsInClusters && bvh.slots.empty())
-        logInfo("the tree is put in clusters as bvh-relayout --layout clusters does");
-    if (method.traits.buildsOwnTree) logInfo(form + " builds a tree of its own from the triangles");
-    file.bvh = method(file.scene, bvh, options);
-    dropChunksThatDoNotSurvive(file, Change::reordered);
 }
 
 WriteOptions writeOptionsFor(const Choices& choices) {
@@ -211,9 +150,10 @@ ExitCode compress(CommandLine& line) {
 
     pass.stages().begin("compress");
     if (file.scene.isInstanced())
-        encodeInstances(file, form, options, line.isGiven("--blas-size"));
-    else
-        encodeTree(file, form, options);
+        checkInstances(line, form);
+    else if (!isStoredAs(file.bvh, form, options))
+        announce(file, form);
+    changeForm(file, form, options);
     if (choices.triangleOrder == "leaf") orderTrianglesByLeaves(file);
     if (choices.vertexOrder == "use") file.scene = withVerticesByUse(file.scene);
     pass.finish(file, writeOptionsFor(choices), "compress", extra);

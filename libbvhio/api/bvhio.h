@@ -162,7 +162,7 @@ typedef struct BvhioInfo {
     uint64_t geometryCount;  /* as stored */
     uint64_t meshCount;      /* 0 in a plain scene */
     uint64_t instanceCount;  /* 0 in a plain scene */
-    uint64_t primitiveCount; /* what rays can hit: the triangles of all instances */
+    uint64_t primitiveCount; /* what rays can hit: triangleCount, or the triangles of all instances */
     uint64_t treeCount;      /* trees that bvhioGetTree gives: 1; in an instanced scene 1 + meshCount */
     uint64_t nodeBytes;      /* of the nodes in memory, in the form they are stored in */
     uint64_t contentHash;    /* of the content, codecs left aside; 0 unless the container was opened */
@@ -390,7 +390,8 @@ typedef enum BvhioMethod {
     BVHIO_CODEC = 4         /* of bvhioCompress: option "codec" */
 } BvhioMethod;
 
-/* The number of methods of a kind; a method's name; and a summary of it in one line. Method 0 is the default.
+/* The number of methods of a kind; a method's name; and a summary of it in one line. Method 0 is the default,
+ * but for forms and codecs: see bvhioCompress.
  * The texts live as long as the program, and are NULL for an index beyond the last method. */
 BVHIO_API uint64_t bvhioMethodCount(BvhioMethod kind);
 BVHIO_API const char* bvhioMethodName(BvhioMethod kind, uint64_t index);
@@ -418,6 +419,14 @@ BVHIO_API BvhioStatus bvhioRestructure(const BvhioContainer* container, const ch
  * record-bytes, threshold, treelet-size, pointer-bits. The result is in the aabb form, as
  * that of bvhioRestructure. */
 BVHIO_API BvhioStatus bvhioRelayout(const BvhioContainer* container, const char* const* options,
+                                    const BvhioContext* context, BvhioContainer** result);
+
+/* Stores the tree in another form, and chooses how a save of the result stores the chunks. Options of
+ * bvh-compress: form and the options of the forms; codec, level, geometry, position-bits, triangle-order,
+ * vertex-order. Default form: a compact form stays as it is; otherwise quantized, and two-level for an instanced
+ * scene. Default codec: zstd; "topology" is allowed, too. With geometry=draco the vertices move when the result
+ * is saved, not before. */
+BVHIO_API BvhioStatus bvhioCompress(const BvhioContainer* container, const char* const* options,
                                     const BvhioContext* context, BvhioContainer** result);
 
 /* Writes the SAH cost of the tree, as its form stores it, to `cost`. */

@@ -250,6 +250,9 @@ class Container {
     Container relayout(const Options& options = {}, const Context& context = {}) const {
         return pass(bvhioRelayout, options, context);
     }
+    Container compress(const Options& options = {}, const Context& context = {}) const {
+        return pass(bvhioCompress, options, context);
+    }
 
     void save(const std::string& path, uint32_t threads = 0) const {
         const Context context{threads};

@@ -62,6 +62,12 @@ bool OptionList::isGiven(std::string_view name) const {
     return find(name) != nullptr;
 }
 
+void OptionList::mention(std::string_view name) {
+    if (std::find(known_.begin(), known_.end(), name) != known_.end()) return;
+    known_.emplace_back(name);
+    mentioned_.emplace_back(name);
+}
+
 std::string OptionList::text(std::string_view name, std::string_view standard) {
     known_.emplace_back(name);
     const Given* given = find(name);

@@ -21,6 +21,9 @@ class OptionList {
     explicit OptionList(const char* const* texts);
 
     bool isGiven(std::string_view name) const;
+    /// Makes a name known without asking for its value.
+    void mention(std::string_view name);
+    const std::vector<std::string>& mentioned() const { return mentioned_; }
     std::string text(std::string_view name, std::string_view standard);
     /// Reads a whole number in [min, max].
     uint32_t number(std::string_view name, uint32_t standard, uint32_t min, uint32_t max);
@@ -65,7 +68,7 @@ class OptionList {
     const Given* find(std::string_view name) const;
 
     std::vector<Given> given_;
-    std::vector<std::string> known_;
+    std::vector<std::string> known_, mentioned_;
     Report record_ = Report::object();
 };
 

@@ -19,7 +19,17 @@ uint32_t parseNumber(const OptionInfo& option, const std::string& text) {
     return number;
 }
 
-OptionValue parseValue(const OptionInfo& option, const std::string& text) {
+template <class Form>
+const FormOption<typename Form::Options>& findOption(std::string_view name) {
+    for (const auto& option : Form::optionTable())
+        if (option.name == name) return option;
+    throw Error(ErrorKind::usage,
+                std::string(name) + ": form " + std::string(Form::kName) + " does not have this option");
+}
+
+}  // namespace
+
+OptionValue valueOf(const OptionInfo& option, const std::string& text) {
     switch (option.kind) {
         case OptionKind::number:
             return {parseNumber(option, text)};
@@ -30,16 +40,6 @@ OptionValue parseValue(const OptionInfo& option, const std::string& text) {
     }
     return {.text = text};
 }
-
-template <class Form>
-const FormOption<typename Form::Options>& findOption(std::string_view name) {
-    for (const auto& option : Form::optionTable())
-        if (option.name == name) return option;
-    throw Error(ErrorKind::usage,
-                std::string(name) + ": form " + std::string(Form::kName) + " does not have this option");
-}
-
-}  // namespace
 
 uint32_t indexOfValue(const OptionInfo& option, std::string_view name) {
     std::string names;
@@ -59,7 +59,7 @@ EncodeOptions parseEncodeOptions(std::string_view form, std::string_view words) 
         for (std::string name, value; text >> name;) {
             const auto& option = findOption<Form>(name);
             if (!(text >> value)) throw Error(ErrorKind::usage, name + ": the value is missing");
-            option.set(options, parseValue(option, value));
+            option.set(options, valueOf(option, value));
         }
         return options;
     });

@@ -28,6 +28,10 @@ std::string defaultText(const FormOption<Options>& option) {
     return value.text;
 }
 
+/// Returns the value that the text stands for. Throws Error{usage} for a number out of range and an unknown
+/// name.
+OptionValue valueOf(const OptionInfo& option, const std::string& text);
+
 /// Returns the index of the name among the option's values. Throws Error{usage} if it is not one of them.
 uint32_t indexOfValue(const OptionInfo& option, std::string_view name);
 

@@ -27,8 +27,8 @@ struct AlignedAllocator {
     void deallocate(T* p, size_t) { ::operator delete(p, kAlignment); }
     template <class U>
     void construct(U* p) {
-        ::new (static_cast<void*>(p))
-            U;  // default-initialise: no clearing for plain data without member initialisers
+        // Default-initialised: plain data without member initialisers is not cleared.
+        ::new (static_cast<void*>(p)) U;
     }
     template <class U, class... Args>
     void construct(U* p, Args&&... args) {

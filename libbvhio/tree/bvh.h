@@ -12,8 +12,8 @@ namespace bvhio {
 /// One node: 32 bytes, plain data, stored as is in files. Two siblings fill one 64-byte cache line.
 struct Node {
     Aabb bounds;
-    uint32_t
-        first;  // inner node: index of the left child (right = first + 1); leaf: index into Bvh::primitives
+    /// Inner node: index of the left child; the right child is next. Leaf: index into Bvh::primitives.
+    uint32_t first;
     uint32_t primitiveCount;  // 0 for an inner node
 
     constexpr bool isLeaf() const { return primitiveCount != 0; }

@@ -8,6 +8,7 @@
 #include "common/pass.h"
 #include "common/run_tool.h"
 #include "common/unused_options.h"
+#include "core/report.h"
 #include "file/form_chunks.h"
 #include "importers/import.h"
 #include "scene/moved_scene.h"

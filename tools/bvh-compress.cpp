@@ -5,6 +5,7 @@
 #include "common/pass.h"
 #include "common/run_tool.h"
 #include "container/codecs.h"
+#include "core/report.h"
 #include "file/change_form.h"
 #include "scene/scene_order.h"
 

@@ -2,6 +2,7 @@
 #include "common/pass.h"
 #include "common/run_tool.h"
 #include "common/unused_options.h"
+#include "core/report.h"
 #include "relayout/clusters.h"
 #include "relayout/layouts.h"
 #include "relayout/order_effect.h"

@@ -3,6 +3,7 @@
 #include "common/run_tool.h"
 #include "common/unused_options.h"
 #include "compress/exact_boxes.h"
+#include "core/report.h"
 #include "restructure/restructurers.h"
 
 using namespace bvhio;

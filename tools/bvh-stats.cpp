@@ -4,6 +4,7 @@
 #include "common/input.h"
 #include "common/query.h"
 #include "common/run_tool.h"
+#include "core/report.h"
 #include "file/check.h"
 #include "file/chunks.h"
 #include "stats/diff.h"

@@ -9,6 +9,7 @@
 #include "common/trace_options.h"
 #include "common/traced_rays.h"
 #include "core/parallel.h"
+#include "core/report.h"
 #include "metrics/fetch_table.h"
 #include "pictures/heat_map.h"
 #include "pictures/shaded_image.h"

@@ -92,6 +92,7 @@ void readDraco(ChunkSequence& chunks, const SceneParameters& parameters, Scene& 
     try {
         mesh = decodeDraco(payload, "its payload");
     } catch (const Error& error) {
+        if (error.kind() == ErrorKind::unsupported) throw;  // by a reader without Draco
         chunks.fail(FindingId::draco, error.what());
     }
     if (mesh.vertices.size() != parameters.vertices || mesh.triangles.size() != parameters.triangles)

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "core/error.h"
+#include "core/report.h"
 #include "core/split.h"
 
 namespace bvhio {

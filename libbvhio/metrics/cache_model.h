@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/report.h"
+#include "core/report_fwd.h"
 #include "metrics/fetches.h"
 
 namespace bvhio {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <optional>
 
+#include "core/report.h"
 #include "stats/hashes.h"
 #include "stats/stats_report.h"
 #include "stats/tree_stats.h"

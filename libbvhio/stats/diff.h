@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compress/forms.h"
-#include "core/report.h"
+#include "core/report_fwd.h"
 #include "scene/scene.h"
 #include "tree/sah_cost.h"
 

@@ -1,5 +1,7 @@
 #include "stats/size_stats.h"
 
+#include "core/report.h"
+
 namespace bvhio {
 
 SizeStats sizeStats(const Scene& scene, const EncodedBvh& encoded) {

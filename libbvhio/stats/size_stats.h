@@ -2,7 +2,7 @@
 #pragma once
 
 #include "compress/forms.h"
-#include "core/report.h"
+#include "core/report_fwd.h"
 #include "scene/scene.h"
 
 namespace bvhio {

@@ -1,6 +1,7 @@
 #include "stats/slack.h"
 
 #include "compress/exact_boxes.h"
+#include "core/report.h"
 #include "tree/depth.h"
 
 namespace bvhio {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/report.h"
+#include "core/report_fwd.h"
 #include "scene/scene.h"
 #include "tree/bvh.h"
 #include "tree/sah_cost.h"

@@ -3,6 +3,7 @@
 #include <cinttypes>
 #include <cstdio>
 
+#include "core/report.h"
 #include "stats/hashes.h"
 #include "stats/size_stats.h"
 #include "stats/slack.h"

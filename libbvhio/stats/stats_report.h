@@ -5,7 +5,7 @@
 #include <string>
 
 #include "compress/forms.h"
-#include "core/report.h"
+#include "core/report_fwd.h"
 #include "stats/epo.h"
 
 namespace bvhio {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <string>
 
+#include "core/report.h"
 #include "tree/depth.h"
 
 namespace bvhio {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compress/forms.h"
-#include "core/report.h"
+#include "core/report_fwd.h"
 #include "tree/bvh.h"
 #include "tree/sah_cost.h"
 

@@ -22,6 +22,12 @@ namespace bvhio::HWY_NAMESPACE {
 /// A node that a ray enters, as an entry of a traversal's stack.
 template <class Cursor>
 struct Entered {
+    Entered() = default;
+    HWY_INLINE Entered(const Cursor& entered, float at) : cursor(entered), enter(at) {}
+    // Declared here, so that they are compiled for the same processor as the cursor's.
+    Entered(const Entered&) = default;
+    Entered& operator=(const Entered&) = default;
+
     Cursor cursor;  // the data with which the stepper continues from this node
     float enter;    // the ray's parameter where it enters the node's box
 };

@@ -1,5 +1,7 @@
 #include "trace/trace_report.h"
 
+#include "core/report.h"
+
 namespace bvhio {
 
 void addTo(Report& report, const TraceMeasurement& measurement) {

@@ -1,7 +1,7 @@
 // Reports the counts of a run as JSON.
 #pragma once
 
-#include "core/report.h"
+#include "core/report_fwd.h"
 #include "trace/trace.h"
 
 namespace bvhio {

@@ -5,6 +5,7 @@
 
 #include "common/cli_parser.h"
 #include "common/log.h"
+#include "core/report.h"
 
 namespace bvhio {
 namespace {
@@ -174,10 +175,7 @@ void CommandLine::parse() {
     progressMode_ = quiet || progress == "never" ? ProgressMode::never
                     : progress == "always"       ? ProgressMode::always
                                                  : ProgressMode::automatic;
-    // Without a limit, parallel code uses all processors that the process may use: affinity can exclude some.
-    const size_t available = threadCount();
-    parser_->threadLimit =
-        std::make_unique<ThreadLimit>(threads == 0 ? available : std::min<size_t>(threads, available));
+    parser_->threadLimit = std::make_unique<ThreadLimit>(threads);
 }
 
 std::vector<std::string> CommandLine::given() const {

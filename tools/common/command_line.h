@@ -11,7 +11,7 @@
 #include "common/progress_bar.h"
 #include "core/choice.h"
 #include "core/named_value.h"
-#include "core/report.h"
+#include "core/report_fwd.h"
 
 namespace bvhio {
 

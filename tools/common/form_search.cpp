@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/report.h"
 #include "rays/ray_sets.h"
 
 namespace bvhio {

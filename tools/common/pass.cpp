@@ -4,6 +4,7 @@
 #include "common/log.h"
 #include "common/machine.h"
 #include "core/parallel.h"
+#include "core/report.h"
 #include "stats/tree_stats.h"
 
 namespace bvhio {

@@ -3,6 +3,7 @@
 #include "common/input.h"
 #include "common/table.h"
 #include "core/error.h"
+#include "core/report.h"
 
 namespace bvhio {
 

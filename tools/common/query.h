@@ -8,7 +8,7 @@
 
 #include "common/command_line.h"
 #include "common/output.h"
-#include "core/report.h"
+#include "core/report_fwd.h"
 #include "file/bvhx_file.h"
 
 namespace bvhio {

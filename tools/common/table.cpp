@@ -6,12 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/report.h"
+
 namespace bvhio {
 namespace {
 
 using Rows = std::vector<std::pair<std::string, Report>>;
 
-std::string number(double value) {
+std::string floatText(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", value);
     return text;
@@ -20,7 +22,7 @@ std::string number(double value) {
 std::string valueText(const Report& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_null()) return "-";
-    if (value.is_number_float()) return number(value.get<double>());
+    if (value.is_number_float()) return floatText(value.get<double>());
     if (!value.is_structured()) return value.dump();
     std::string list;
     for (const auto& [key, item] : value.items())

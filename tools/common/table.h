@@ -4,7 +4,7 @@
 #include <ostream>
 #include <string>
 
-#include "core/report.h"
+#include "core/report_fwd.h"
 
 namespace bvhio {
 

@@ -10,6 +10,7 @@
 #include "common/test_scenes.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/report.h"
 #include "metrics/fetch_table.h"
 #include "trace/trace.h"
 

@@ -7,6 +7,7 @@
 #include "build/median.h"
 #include "common/shuffled_tree.h"
 #include "common/test_scenes.h"
+#include "core/report.h"
 
 namespace bvhio {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/report.h"
+
 namespace bvhio {
 namespace {
 

@@ -6,6 +6,7 @@
 #include "build/sweep.h"
 #include "common/test_scenes.h"
 #include "compress/forms.h"
+#include "core/report.h"
 
 namespace bvhio {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "build/median.h"
 #include "common/test_scenes.h"
+#include "core/report.h"
 #include "stats/hashes.h"
 
 namespace bvhio {

@@ -5,6 +5,7 @@
 #include "build/median.h"
 #include "common/shuffled_tree.h"
 #include "common/test_scenes.h"
+#include "core/report.h"
 #include "relayout/clusters.h"
 #include "relayout/layouts.h"
 

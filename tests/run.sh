@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every test. The one command for tests on a fresh Debian 12; takes minutes, since it
-# builds three times: with g++, with clang and with sanitizers. Usage: tests/run.sh [STEP...]; no step means all of them.
+# builds three times: with g++, with clang and with sanitizers. Usage: tests/run.sh [STEP...]
+# Steps: style, release, clang, sanitize and install, which no step stands for; quick, a first answer in minutes (style, and the fast
+# tests of a release build); package, the Debian packages, installed in a fresh system (fetches one: needs root and a network).
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 
@@ -43,11 +45,12 @@ clang() { build release && build clang && bash tests/same_bytes.sh build/release
 # The tests under the address and undefined-behaviour sanitizers.
 sanitize() { build sanitize && ctest --preset sanitize -j "$jobs"; }
 
-# What is installed can be found and used by another project.
+# What is installed can be found and used by other projects, samples/library among them.
 install() {
     local prefix
     prefix=$(mktemp -d) &&
         build release && cmake --install build/release --prefix "$prefix" >/dev/null &&
+        bash tests/consumers/run.sh "$prefix" &&
         cmake -G Ninja -S samples/library -B "$prefix/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >/dev/null &&
         cmake --build "$prefix/build" &&
         "$prefix/bin/bvh-build" samples/scenes/courtyard.glb -o "$prefix/scene.bvhx" &&
@@ -59,6 +62,12 @@ install() {
     rm -rf "$prefix"
     return $code
 }
+
+# What most mistakes break, for the time between two changes.
+quick() { style && build release && ctest --preset release -j "$jobs" --label-exclude slow; }
+
+# The packages build, pass lintian, install in a fresh system and work there.
+package() { bash samples/setup.sh package && build package && bash tests/package.sh build/package; }
 
 bash samples/setup.sh build tests || exit 1
 for name in "${steps[@]}"; do step "$name"; done

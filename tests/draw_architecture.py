@@ -31,7 +31,8 @@ SAYS = {
     "trace": ["the traversal loop", "and its steps,", "per processor"],
     "stats": ["numbers about", "trees and files"],
     "file": ["which chunks hold", "scene and tree"],
-    "api": ["the installed headers: C API and C++ wrapper"],
+    "api": ["the installed", "headers: C API", "and C++ wrapper"],
+    "reader": ["stand-ins for oneTBB", "and Draco"],
     "tools": ["six command-line programs"],
 }
 TITLES = {"tools": "tools/"}

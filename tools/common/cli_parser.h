@@ -16,6 +16,7 @@
 #include "common/suggest.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/report.h"
 
 namespace bvhio {
 

@@ -5,7 +5,6 @@
 
 #include "common/cli_parser.h"
 #include "common/log.h"
-#include "core/report.h"
 
 namespace bvhio {
 namespace {

@@ -48,11 +48,12 @@ static int showProgress(void* user, uint64_t done, uint64_t total) {
 
 /* Builds the tree over the hills and saves it to `path`. */
 static BvhioStatus save(const char* path) {
+    const char* compressOptions[] = {"form=quantized", NULL};
     const char* buildOptions[] = {"builder=sweep", "max-leaf-size=2", NULL};
     BvhioContext context;
     BvhioSceneArrays arrays;
     BvhioScene* scene = NULL;
-    BvhioContainer *built = NULL, *improved = NULL;
+    BvhioContainer *built = NULL, *improved = NULL, *compact = NULL;
     BvhioStatus status;
 
     memset(&context, 0, sizeof context);
@@ -72,7 +73,9 @@ static BvhioStatus save(const char* path) {
     if (status == BVHIO_OK) status = bvhioBuild(scene, buildOptions, &context, &built);
     context.progressUser = "the improvement";
     if (status == BVHIO_OK) status = bvhioRestructure(built, NULL, &context, &improved);
-    if (status == BVHIO_OK) status = bvhioSaveFile(improved, path, NULL);
+    if (status == BVHIO_OK) status = bvhioCompress(improved, compressOptions, NULL, &compact);
+    if (status == BVHIO_OK) status = bvhioSaveFile(compact, path, NULL);
+    bvhioClose(compact);
     bvhioClose(improved);
     bvhioClose(built);
     bvhioDestroyScene(scene);

@@ -23,7 +23,8 @@ bvhio::Ray down(float x, float y) {
 TEST(Wrapper, buildsSavesOpensAndShoots) {
     const bvhio::Container built =
         square().build({"builder=sweep"}, {.program = "test", .programVersion = "1"});
-    const bvhio::Memory memory = built.relayout().restructure({"method=none"}).saveMemory();
+    const bvhio::Memory memory =
+        built.relayout().restructure({"method=none"}).compress({"form=ssh"}).saveMemory();
     const bvhio::Container opened = bvhio::Container::openMemory(memory.bytes());
     EXPECT_EQ(opened.info().triangleCount, 2u);
     EXPECT_EQ(opened.vertices().size(), 4u);
@@ -33,7 +34,7 @@ TEST(Wrapper, buildsSavesOpensAndShoots) {
     EXPECT_EQ(opened.geometries().size(), 1u);
     EXPECT_TRUE(opened.meshes().empty());
     EXPECT_TRUE(opened.instances().empty());
-    EXPECT_EQ(opened.history().size(), 3u);
+    EXPECT_EQ(opened.history().size(), 4u);
     EXPECT_STREQ(opened.history()[0].program, "test");
     EXPECT_EQ(opened.chunks().size(), opened.info().chunkCount);
     EXPECT_EQ(opened.tree().primitives.size(), 2u);

@@ -52,7 +52,9 @@ OptionValue zetaOf(const Options& options) {
         char digits[32];
         return std::string(digits, std::to_chars(digits, digits + sizeof digits, zeta).ptr);
     };
-    return {.text = text(options.zeta) + (options.zetaOfBoth > 0 ? "," + text(options.zetaOfBoth) : "")};
+    OptionValue value{.text = text(options.zeta)};
+    if (options.zetaOfBoth > 0) value.text.append(",").append(text(options.zetaOfBoth));
+    return value;
 }
 
 }  // namespace

@@ -25,4 +25,4 @@ awk -v tool="$tool" '
     }
     /^###/ { print substr($0, 2); next }
     { print }' "$1" |
-    lowdown -s -tman -M title="$tool" -M section=1 -M source="bvhio $2" -M volume="bvhio manual"
+    lowdown -s -tman --parse-no-super -M title="$tool" -M section=1 -M source="bvhio $2" -M volume="bvhio manual"

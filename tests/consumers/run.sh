@@ -25,7 +25,7 @@ done
 
 for project in add_subdirectory fetch_content; do
     cmake -G Ninja -S "$here/$project" -B "$work/$project" -DBVHIO_SOURCE="$root" >/dev/null
-    ninja -C "$work/$project" -n uses >"$work/plan"
+    ninja -C "$work/$project" -t commands uses >"$work/plan"
     ! grep -E 'bvh-build|_tests|libbvhio\.so' "$work/plan" || { echo "$project: builds tools, tests or what it does not link"; exit 1; }
     grep -q 'libbvhio\.a' "$work/plan" || { echo "$project: does not build the library"; exit 1; }
     ! cmake --build "$work/$project" --target help | grep -E 'bvh-|_tests' || { echo "$project: has tools or tests"; exit 1; }

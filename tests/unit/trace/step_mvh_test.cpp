@@ -10,13 +10,13 @@ namespace {
 using namespace HWY_NAMESPACE;
 
 /// A node whose box is computed and clipped node by node.
-struct Reference {
+struct ExpectedNode {
     MvhBox box;
     RayInterval interval;
     uint32_t axis = 0;  // along which its children are cut
 
-    Reference child(const PreparedRay& ray, const MvhRule& rule, uint32_t code, float tLimit) const {
-        Reference child{MvhCuts(box, rule).child(box, code), {}};
+    ExpectedNode child(const PreparedRay& ray, const MvhRule& rule, uint32_t code, float tLimit) const {
+        ExpectedNode child{MvhCuts(box, rule).child(box, code), {}};
         child.interval = clipToBox(ray, child.box.bounds, tLimit);
         child.interval.enter = std::max(child.interval.enter, interval.enter);
         child.interval.exit = std::min(child.interval.exit, interval.exit);
@@ -24,7 +24,7 @@ struct Reference {
         return child;
     }
     /// Returns whether a ray enters this node's right child first.
-    bool isSwapped(const PreparedRay& ray, const Reference& left, const Reference& right) const {
+    bool isSwapped(const PreparedRay& ray, const ExpectedNode& left, const ExpectedNode& right) const {
         return right.interval.enter < left.interval.enter ||
                (right.interval.enter == left.interval.enter && ray.nearPlane[axis] >= 3);
     }
@@ -70,7 +70,7 @@ TEST_F(MvhStepTest, findsTheSameAsBoxesNodeByNode) {
         const MvhTables tables(rule);
         const PreparedRay ray(this->ray());
         const float tLimit = below(4) == 0 ? float(below(16)) : std::numeric_limits<float>::infinity();
-        Reference node{{box(), below(rule.axes)}, {}};
+        ExpectedNode node{{box(), below(rule.axes)}, {}};
         if (ray.missesByDefinition()) continue;
         node.interval = clipToBox(ray, node.box.bounds, tLimit);
         if (node.interval.isEmpty()) continue;
@@ -84,7 +84,7 @@ TEST_F(MvhStepTest, findsTheSameAsBoxesNodeByNode) {
         stepMvh(tables, mvhRay, codes[0], codes[1], codes[2], twoLevels,
                 mvhPart(mvhRay, node.box.bounds, node.interval), node.box.turn, tLimit, step);
 
-        Reference children[2], lanes[4];
+        ExpectedNode children[2], lanes[4];
         uint32_t swapped[3] = {};
         for (uint32_t i = 0; i < 2; ++i) {
             children[i] = node.child(ray, rule, codes[0] >> 2 * i & 3, tLimit);
@@ -97,7 +97,7 @@ TEST_F(MvhStepTest, findsTheSameAsBoxesNodeByNode) {
         uint32_t count = 0;
         for (uint32_t i = 0; i < 4; ++i) {
             const uint32_t child = i / 2 ^ swapped[0], lane = 2 * child + (i % 2 ^ swapped[1 + child]);
-            const Reference& expected = lanes[lane];
+            const ExpectedNode& expected = lanes[lane];
             if (expected.interval.isEmpty() || (!twoLevels && lane % 2 == 1)) continue;
             ASSERT_LT(count, step.count) << steps;
             ASSERT_EQ(step.lane(count), lane) << steps;

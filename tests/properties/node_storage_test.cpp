@@ -11,6 +11,7 @@
 #include "common/test_rays.h"
 #include "common/test_scenes.h"
 #include "core/error.h"
+#include "core/report.h"
 #include "metrics/cache_model.h"
 #include "rays/ray_sets.h"
 #include "relayout/layouts.h"

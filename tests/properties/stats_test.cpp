@@ -5,6 +5,7 @@
 #include "common/shuffled_tree.h"
 #include "common/test_scenes.h"
 #include "core/parallel.h"
+#include "core/report.h"
 #include "stats/diff.h"
 #include "stats/slack.h"
 #include "stats/stats_report.h"

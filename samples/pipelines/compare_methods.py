@@ -52,10 +52,11 @@ def choices(tool, option):
     start = next(i for i, line in enumerate(lines) if line.startswith(f"  {option} "))
     names = []
     for line in lines[start + 1:]:
-        match = re.match(r" {36}([a-z0-9-]+)  ", line)
-        if not match:
+        if not line.startswith(" " * 36):
             break
-        names.append(match.group(1))
+        match = re.match(r" {36}([a-z0-9-]+)  ", line)
+        if match:  # other lines continue a summary
+            names.append(match.group(1))
     return names
 
 

@@ -108,7 +108,7 @@ TEST_P(FormsOfScene, decodeToValidTreesThatHoldTheOriginal) {
 
 // The tree that is given does not matter to a form that builds its own, and matters to all others.
 TEST(Forms, buildTheirOwnTreeWhereTheySaySo) {
-    const Scene scene = test::sphereScene(24, 12);
+    const Scene scene = test::sceneOf(test::randomTriangles(600, 10, 1));
     const Bvh one = builders()[0].function(scene, {.costs = {}, .maxLeafSize = 1});
     const Bvh other = buildMedian(scene, {.costs = {}, .maxLeafSize = 13});
     for (const FormChoice& form : forms()) {

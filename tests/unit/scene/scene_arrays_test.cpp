@@ -89,7 +89,7 @@ TEST(CheckScene, namesWhatIsWrong) {
     scene.meshes = {{0, 1, 0, 2}};
     expectRefused(scene, "meshes, but no instances");
     scene.instances = {{kIdentityAffine, 0, 1, 0}};
-    expectRefused(scene, "instance 0 numbered");
+    expectRefused(scene, "instance 0 whose primitive or geometry numbers do not follow");
     scene.instances = {{kIdentityAffine, 1, 0, 0}};
     expectRefused(scene, "mesh 1, but there are only 1");
     scene.instances = {{Affine{}, 0, 0, 0}};

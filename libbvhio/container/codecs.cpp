@@ -193,7 +193,7 @@ std::span<const Codec> codecs() {
         {"none",
          "no compression: arrays are used from the mapped file without copying",
          {0, 0, 0, 0, encodeNone, decodeNone}},
-        {"zstd", "Zstandard", {1, 3, 1, 19, encodeZstd, decodeZstd}},
+        {"zstd", "Zstandard compression", {1, 3, 1, 19, encodeZstd, decodeZstd}},
     };
     return kTable;
 }

@@ -45,7 +45,7 @@ choices() { # TOOL OPTION
     names=$("$1" --help | awk -v option="$2" '
         $1 == option { listing = 1; next }
         !/^            / { listing = 0 }
-        listing { print $1 }')
+        listing && match($0, /^ */) && RLENGTH == 36 { print $1 }') # what is further right goes on with a summary
     [ -n "$names" ] || echo "$1 --help lists no names for $2" >&2
     echo "$names"
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "golden/golden_files.h"
@@ -65,12 +66,12 @@ TEST(Golden, compressedFilesAreWhatTheWriterWrites) {
 }
 
 TEST(Golden, everyFormHasAFileAndAPage) {
+    std::set<std::string_view> found;
+    for (const auto& file : std::filesystem::directory_iterator(kSource / "tests/golden/v1"))
+        found.insert(formNameOf(readBvhx(file.path()).bvh));
     for (const FormChoice& form : forms()) {
         SCOPED_TRACE(form.name);
-        const std::vector<GoldenFile> files = goldenFiles();
-        EXPECT_TRUE(std::any_of(files.begin(), files.end(), [&](const GoldenFile& file) {
-            return formNameOf(file.content.bvh) == form.name;
-        }));
+        EXPECT_TRUE(found.contains(form.name));
         EXPECT_TRUE(std::filesystem::exists(kPages / (std::string(form.name) + ".md")));
     }
 }

@@ -20,6 +20,6 @@ for tool in build restructure relayout compress trace stats; do
 done
 # What belongs to bvh-compress' search stands with it, and a level has one range in --help and in its error.
 bvh-compress --help | sed -n '/^Input and output/,$d; s/^  \(--pareto\|--max-slowdown\).*/\1/p'
-bvh-compress --help | grep -A1 -- '^  --level' | tr -s ' \n' ' ' | grep -o 'effort.*small)'
+bvh-compress --help | grep -A1 -- '^  --level' | tr -s ' \n' ' ' | grep -o 'compression level.*small)'
 cube | bvh-build -o cube.bvhx
 code bvh-compress cube.bvhx --level 20

@@ -1,11 +1,7 @@
 // Traces rays in the scene's own triangles, with or without counting. Written for each target, like
-// trace/traverse.h, but compiled for one: where speed matters, rays are traced in triangle blocks.
-#if defined(BVHIO_TRACE_TRACE_INDEXED_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef BVHIO_TRACE_TRACE_INDEXED_H
-#undef BVHIO_TRACE_TRACE_INDEXED_H
-#else
-#define BVHIO_TRACE_TRACE_INDEXED_H
-#endif
+// trace/traverse.h, but compiled for one: where speed matters, rays are traced in triangle blocks. So its guard
+// must not toggle: whether it then lets the one inclusion pass would depend on the number of targets.
+#pragma once
 
 #include <mutex>
 
@@ -74,5 +70,3 @@ TraceMeasurement measureAll(const Form& form, const Scene& scene, std::span<cons
 
 }  // namespace bvhio::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif  // per target

@@ -6,6 +6,10 @@
 #ifndef BVHIO_HPP
 #define BVHIO_HPP
 
+#if __cplusplus < 202002L && (!defined(_MSVC_LANG) || _MSVC_LANG < 202002L)
+#error "bvhio.hpp needs C++20 (-std=c++20, or target_compile_features(... cxx_std_20)); bvhio.h needs only C"
+#endif
+
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -70,7 +70,7 @@ class ThreadLimit {
 
   private:
     std::unique_ptr<ThreadCrew> crew_;
-    ThreadCrew* enclosing_;
+    [[maybe_unused]] ThreadCrew* enclosing_;  // the reader, which has no threads, does not use it
 };
 
 namespace detail {

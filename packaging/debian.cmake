@@ -29,34 +29,38 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${BVHIO_MAINTAINER}")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+
+# The first line of each description is the package's summary, in place of the project's.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
 set(about "Bounding volume hierarchies (BVHs) are the search trees of ray tracing.
- The .bvhx format stores them, with their triangles, checked and compact.")
+The .bvhx format stores them, with their triangles, checked and compact.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME bvhio)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "python3, python3-matplotlib")
 set(CPACK_COMPONENT_TOOLS_DESCRIPTION "tools for bounding volume hierarchies of ray tracing
- ${about}
- .
- This package has six programs that build such trees from 3D files, improve
- them, lay them out for caches, compress them, trace rays through them and
- report what they hold and cost.")
+${about}
+
+This package has six programs that build such trees from 3D files, improve
+them, lay them out for caches, compress them, trace rays through them and
+report what they hold and cost.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME libbvhio1)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/triggers)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "library for bounding volume hierarchies of ray tracing
- ${about}
- .
- This package has the shared libraries: libbvhio, and its part libbvhio-read,
- which opens, checks and traces but needs few other libraries.")
+${about}
+
+This package has the shared libraries: libbvhio, and its part libbvhio-read,
+which opens, checks and traces but needs few other libraries.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbvhio-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libbvhio1 (= ${version})")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "library for bounding volume hierarchies of ray tracing - development
- ${about}
- .
- This package has the header for C and its wrapper for C++, the static
- libraries, and a corpus of valid and damaged files for tests of readers.")
+${about}
+
+This package has the header for C and its wrapper for C++, the static
+libraries, and a corpus of valid and damaged files for tests of readers.")
 include(CPack)

@@ -17,7 +17,7 @@ lintian --fail-on error --allow-root "$packages"/*.deb
 
 fresh=$build/rootfs
 mirror=${BVHIO_DEBIAN_MIRROR:-$(sed -nE 's/^deb (\[[^]]*\] )?(http[^ ]*) .*/\2/p; s/^URIs: (http[^ ]*).*/\1/p' \
-    /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | head -1)}
+    /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | head -1 || true)}
 if [ ! -e "$fresh/ready" ]; then
     rm -rf "$fresh"
     debootstrap --variant=minbase bookworm "$fresh" "${mirror:-http://deb.debian.org/debian}" >"$build/debootstrap.log" ||

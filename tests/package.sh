@@ -20,7 +20,7 @@ mirror=${BVHIO_DEBIAN_MIRROR:-$(sed -nE 's/^deb (\[[^]]*\] )?(http[^ ]*) .*/\2/p
     /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | head -1 || true)}
 if [ ! -e "$fresh/ready" ]; then
     rm -rf "$fresh"
-    debootstrap --variant=minbase bookworm "$fresh" "${mirror:-http://deb.debian.org/debian}" >"$build/debootstrap.log" ||
+    debootstrap --variant=minbase bookworm "$fresh" ${mirror:+"$mirror"} >"$build/debootstrap.log" ||
         { tail "$build/debootstrap.log"; exit 1; }
     touch "$fresh/ready"
 fi

@@ -1,12 +1,12 @@
 // The bottom level of the two-level form: many trees of one form, whose nodes share one array.
 //
 // A root holds only what a ray needs to continue from there: 4 or 8 bytes in an array of their own. Its box
-// is that of the top level's leaf. (The roots of compress/mvh_blases.h need no bytes at all.)
+// is that of the top level's leaf. (The roots of compress/nibble_blases.h need no bytes at all.)
 #pragma once
 
 #include "compress/aabb_form.h"
 #include "compress/forest.h"
-#include "compress/mvh_blases.h"
+#include "compress/nibble_blases.h"
 #include "compress/quantized_form.h"
 #include "compress/ssh_form.h"
 

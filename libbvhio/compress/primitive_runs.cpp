@@ -8,18 +8,18 @@ namespace bvhio {
 namespace {
 
 /// Returns the number of primitives below a node if its subtree has the shape of an MVH, otherwise 0.
-uint32_t countOfMvh(const MvhRuns& shape, const Forest& forest, const Node& node) {
+uint32_t countOfMvh(const NibbleRuns& shape, const Forest& forest, const Node& node) {
     if (node.isLeaf()) return shape.root({0, node.primitiveCount}).isLeaf() ? node.primitiveCount : 0;
     const uint32_t left = countOfMvh(shape, forest, forest.nodes[node.left()]);
     const uint32_t right = left == 0 ? 0 : countOfMvh(shape, forest, forest.nodes[node.right()]);
-    const MvhRun run = shape.root({0, left + right});
+    const NibbleRun run = shape.root({0, left + right});
     return right != 0 && !run.isLeaf() && shape.left(run).count == left ? run.count : 0;
 }
 
 }  // namespace
 
 Runs gatherRuns(const Scene& scene, const Forest& forest, std::span<const uint32_t> primitives,
-                const MvhRuns& shape) {
+                const NibbleRuns& shape) {
     Runs runs;
     runs.primitives.reserve(primitives.size());
     runs.boxes.reserve(primitives.size());

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compress/forest.h"
-#include "compress/mvh_blases.h"
+#include "compress/nibble_blases.h"
 #include "scene/scene.h"
 
 namespace bvhio {
@@ -23,7 +23,7 @@ struct Runs {
 /// Gathers each tree's primitives into one run. A tree that has the shape of an MVH, such as a decoded one,
 /// keeps its order.
 Runs gatherRuns(const Scene& scene, const Forest& forest, std::span<const uint32_t> primitives,
-                const MvhRuns& shape);
+                const NibbleRuns& shape);
 
 /// Returns the top level with leaves that own the runs, instead of the trees over them.
 Bvh withRuns(const Bvh& top, const Runs& runs);

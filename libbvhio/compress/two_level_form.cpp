@@ -105,8 +105,8 @@ struct Bottom {
 
 /// Encodes trees over runs, whose roots are at `places`. Puts each run into the order of its tree.
 Bottom encodeRuns(Runs runs, const RootPlaces& places, const TwoLevelForm::Options& options) {
-    MvhBlases blases =
-        MvhBlases::encode(options.blasLeafSize, places, runs.primitives, runs.boxes, runs.ordered);
+    NibbleBlases blases =
+        NibbleBlases::encode(options.blasLeafSize, places, runs.primitives, runs.boxes, runs.ordered);
     return {std::move(blases), std::move(runs.primitives)};
 }
 
@@ -154,7 +154,7 @@ TwoLevelForm TwoLevelForm::encode(const Scene& scene, const Bvh& bvh, const Opti
     // The top level: its leaves own runs of primitives, or refer to trees of the bottom level.
     Runs runs;
     if (overRuns) {
-        runs = gatherRuns(scene, levels.bottom, bvh.primitives, MvhRuns(options.blasLeafSize));
+        runs = gatherRuns(scene, levels.bottom, bvh.primitives, NibbleRuns(options.blasLeafSize));
         levels.top = withRuns(levels.top, runs);
     } else {
         levels.top.primitives = oneEntry();
@@ -182,11 +182,10 @@ TwoLevelForm TwoLevelForm::encodeInstances(const Scene& scene, const InstancedBv
     PlacedBlases placed(scene, std::move(top.instances), overRuns);
     GatheredTrees meshes = gatherMeshes(placed, scene, bvh, options.blasForm);
     const RootPlaces places = placed.places();
-    Bottom bottom =
-        overRuns
-            ? encodeRuns(gatherRuns(scene, meshes.forest, meshes.primitives, MvhRuns(options.blasLeafSize)),
-                         places, options)
-            : encodeTrees(meshes.forest, meshes.primitives, places, options);
+    Bottom bottom = overRuns ? encodeRuns(gatherRuns(scene, meshes.forest, meshes.primitives,
+                                                     NibbleRuns(options.blasLeafSize)),
+                                          places, options)
+                             : encodeTrees(meshes.forest, meshes.primitives, places, options);
     return {std::move(tlas), std::move(bottom.blases), std::move(bottom.primitives), Options{}.blasSize,
             std::move(placed)};
 }
@@ -228,7 +227,7 @@ TwoLevelForm::Options TwoLevelForm::options() const {
     if (const auto* quantized = std::get_if<QuantizedTlas>(&tlas_)) options.bits = quantized->form().bits();
     if (const auto* quantized = std::get_if<QuantizedBlases>(&blases_))
         options.bits = quantized->form().bits();
-    if (const auto* mvh = std::get_if<MvhBlases>(&blases_)) options.blasLeafSize = mvh->shape().leafSize();
+    if (const auto* mvh = std::get_if<NibbleBlases>(&blases_)) options.blasLeafSize = mvh->shape().leafSize();
     if (!isInstanced()) options.blasSize = blasSize_;
     return options;
 }

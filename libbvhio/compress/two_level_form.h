@@ -58,7 +58,7 @@ class TwoLevelForm {
 
     /// In the order of TlasForm and BlasForm.
     using Tlas = std::variant<QuantizedTlas, AabbTlas>;
-    using Blases = std::variant<MvhBlases, SshBlases, QuantizedBlases, AabbBlases>;
+    using Blases = std::variant<NibbleBlases, SshBlases, QuantizedBlases, AabbBlases>;
 
     /// Each leaf of `tlas` has one entry: the index of an entry of `placed`, or without `placed`, of a BLAS.
     /// If BLASes are runs, and without `placed`, a leaf owns the run of primitives of its BLAS instead. If

@@ -37,7 +37,7 @@ std::span<const FormOption<TwoLevelForm::Options>> TwoLevelForm::optionTable() {
                                                 options.blasForm == BlasForm::quantized;
                                      }),
         memberOption<&Options::blasLeafSize>(
-            {.name = "--leaf-size", .min = 1, .max = MvhRuns::kMaxLeafSize, .part = "mvh BLASes"},
+            {.name = "--leaf-size", .min = 1, .max = NibbleRuns::kMaxLeafSize, .part = "mvh BLASes"},
             [](const Options& options) { return options.blasForm == BlasForm::mvh; })};
     return kTable;
 }

@@ -128,18 +128,18 @@ struct LevelChunks<QuantizedTlas> {
 };
 
 template <>
-struct LevelChunks<MvhBlases> {
+struct LevelChunks<NibbleBlases> {
     static constexpr uint32_t kCode = chunkType("mvh ");
     static constexpr uint32_t kNodesChunk = kBlasType;
     static constexpr size_t kNodeSize = 0;  // nodes are not stored one by one
 
-    static void write(ContainerWriter& writer, const MvhBlases& blases) {
+    static void write(ContainerWriter& writer, const NibbleBlases& blases) {
         writeArrayChunk(writer, kBlasType, blases.codes());
     }
-    static MvhBlases read(ChunkSequence& chunks, const LevelCounts& counts) {
-        if (counts.references > MvhRuns::kMaxReferences)
+    static NibbleBlases read(ChunkSequence& chunks, const LevelCounts& counts) {
+        if (counts.references > NibbleRuns::kMaxReferences)
             chunks.fail(FindingId::treeCounts, "mvh BLASes have at most 2^29 references");
-        const size_t bytes = MvhRuns(counts.leafSize).byteCount(counts.references);
+        const size_t bytes = NibbleRuns(counts.leafSize).byteCount(counts.references);
         return {counts.leafSize, chunks.expectArray<uint8_t>(kBlasType, bytes)};
     }
 };

@@ -82,7 +82,7 @@ struct FormChunks<TwoLevelForm> {
                                                    std::to_string(parameters.nodeSlots) + " slots");
 
         if (hasBits) FormChunks<QuantizedForm>::checkBits(chunks, counts.bits);
-        if (isOverMvh && (counts.leafSize < 1 || counts.leafSize > MvhRuns::kMaxLeafSize))
+        if (isOverMvh && (counts.leafSize < 1 || counts.leafSize > NibbleRuns::kMaxLeafSize))
             chunks.fail(FindingId::formParameter, "leaves of mvh BLASes have " +
                                                       std::to_string(counts.leafSize) +
                                                       " triangles, but only 1 to 16 are possible");
@@ -112,7 +112,7 @@ struct FormChunks<TwoLevelForm> {
                     runs.push_back({mesh.firstTriangle, mesh.triangleCount});
             else
                 runs = runsOf(tlas);
-            checkRuns(chunks, runs, std::get<MvhBlases>(blases), counts.blasSlots);
+            checkRuns(chunks, runs, std::get<NibbleBlases>(blases), counts.blasSlots);
         }
         // Instances are placed by the boxes of meshes, which only valid geometry has.
         PlacedBlases placed;
@@ -133,7 +133,7 @@ struct FormChunks<TwoLevelForm> {
     }
 
   private:
-    static constexpr bool isMvh(uint32_t code) { return code == LevelChunks<MvhBlases>::kCode; }
+    static constexpr bool isMvh(uint32_t code) { return code == LevelChunks<NibbleBlases>::kCode; }
     static constexpr bool isQuantized(uint32_t code) { return code == FormChunks<QuantizedForm>::kCode; }
 
     /// Returns the entries that each leaf of a top level owns.
@@ -147,10 +147,10 @@ struct FormChunks<TwoLevelForm> {
 
     /// Checks that the trees over the runs have as many slots as TREE states, and that unused bytes are zero.
     static void checkRuns(const ChunkSequence& chunks, std::span<const PrimitiveRange> runs,
-                          const MvhBlases& blases, uint64_t blasSlots) {
-        const MvhRuns& shape = blases.shape();
+                          const NibbleBlases& blases, uint64_t blasSlots) {
+        const NibbleRuns& shape = blases.shape();
         uint64_t slots = 0;
-        std::vector<MvhRun> waiting;
+        std::vector<NibbleRun> waiting;
         for (const PrimitiveRange& run : runs) {
             waiting.push_back(shape.root(run));
             slots += waiting.back().slotsBelow();
@@ -161,7 +161,7 @@ struct FormChunks<TwoLevelForm> {
                                                    std::to_string(blasSlots));
         std::vector<bool> serves(blases.codes().size());
         while (!waiting.empty()) {
-            const MvhRun run = waiting.back();
+            const NibbleRun run = waiting.back();
             waiting.pop_back();
             if (run.isLeaf()) continue;
             serves[run.codes()] = true;

@@ -124,10 +124,10 @@ class BlasStepper<QuantizedBlases> : public Stepper<QuantizedForm> {
 struct alignas(16) MvhMove {
     float min[4], max[4];
 };
-constexpr std::array<MvhMove, kMvhCodes> mvhMoves() {
-    std::array<MvhMove, kMvhCodes> moves{};
-    for (uint32_t code = 0; code < kMvhCodes; ++code) {
-        const MvhCut cut = mvhCut(code);
+constexpr std::array<MvhMove, kNibbleCodes> mvhMoves() {
+    std::array<MvhMove, kNibbleCodes> moves{};
+    for (uint32_t code = 0; code < kNibbleCodes; ++code) {
+        const NibbleCut cut = nibbleCut(code);
         for (int axis = 0; axis < 3; ++axis) {
             moves[code].min[axis] = cut.min[axis];
             moves[code].max[axis] = cut.max[axis];
@@ -135,11 +135,11 @@ constexpr std::array<MvhMove, kMvhCodes> mvhMoves() {
     }
     return moves;
 }
-inline constexpr std::array<MvhMove, kMvhCodes> kMvhMoves = mvhMoves();
+inline constexpr std::array<MvhMove, kNibbleCodes> kMvhMoves = mvhMoves();
 
 /// The data that all nodes of a tree share is here, so that a cursor needs only two numbers.
 template <>
-class BlasStepper<MvhBlases> {
+class BlasStepper<NibbleBlases> {
   public:
     using Ray = RayFrame;
     static constexpr int kMaxPushed = 1;
@@ -150,7 +150,7 @@ class BlasStepper<MvhBlases> {
     };
 
     /// `run` are the primitives that the tree is over.
-    HWY_INLINE BlasStepper(const MvhBlases& blases, PrimitiveRange run)
+    HWY_INLINE BlasStepper(const NibbleBlases& blases, PrimitiveRange run)
         : codes_(blases.codes().data()),
           run_(run),
           leafSize_(blases.shape().leafSize()),
@@ -169,7 +169,7 @@ class BlasStepper<MvhBlases> {
     HWY_INLINE bool step(const Entered<Cursor>& from, const RayFrame& ray, float tLimit,
                          Entered<Cursor>& next, Entered<Cursor>*& top, Metrics& metrics) const {
         const uint32_t leaf = from.cursor.leaf, leaves = from.cursor.leaves, leftLeaves = (leaves + 1) / 2;
-        const uint32_t at = root_.slot + leaf + leftLeaves;  // as MvhRun::codes
+        const uint32_t at = root_.slot + leaf + leftLeaves;  // as NibbleRun::codes
         metrics.recordFetched(at, 1);
         metrics.boxesTested(1, BoxTestCost{17, 12});
         metrics.boxesTested(1, BoxTestCost{16, 12});
@@ -204,10 +204,10 @@ class BlasStepper<MvhBlases> {
     const uint8_t* codes_;
     PrimitiveRange run_;
     uint32_t leafSize_;
-    MvhRun root_;
+    NibbleRun root_;
 };
 static_assert(SteppableNodes<BlasStepper<AabbBlases>> && SteppableNodes<BlasStepper<SshBlases>> &&
-              SteppableNodes<BlasStepper<QuantizedBlases>> && SteppableNodes<BlasStepper<MvhBlases>>);
+              SteppableNodes<BlasStepper<QuantizedBlases>> && SteppableNodes<BlasStepper<NibbleBlases>>);
 
 }  // namespace bvhio::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

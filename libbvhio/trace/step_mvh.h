@@ -228,11 +228,11 @@ HWY_INLINE void stepMvh(const MvhTables& tables, const MvhRay& ray, uint32_t cod
     step.count = uint32_t(std::popcount(entered));
     step.lanes = kMvhOrder.lanes[swapped][entered];
     step.turns = -lanes.turn;
-    const MvhRows nearMvhRows(lanes.near[0], lanes.near[1], lanes.near[2], lanes.enter);
-    const MvhRows farMvhRows(lanes.far[0], lanes.far[1], lanes.far[2], lanes.minusExit);
+    const MvhRows nearRows(lanes.near[0], lanes.near[1], lanes.near[2], lanes.enter);
+    const MvhRows farRows(lanes.far[0], lanes.far[1], lanes.far[2], lanes.minusExit);
     for (uint32_t i = 0; i < 4; ++i) {
-        step.parts[i].near = nearMvhRows.of[i];
-        step.parts[i].far = farMvhRows.of[i];
+        step.parts[i].near = nearRows.of[i];
+        step.parts[i].far = farRows.of[i];
     }
 }
 

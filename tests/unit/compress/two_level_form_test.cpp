@@ -41,19 +41,19 @@ TEST(TwoLevels, cutOffTheLargestSubtreesThatAreSmallEnough) {
 }
 
 // Trees share one array of codes without a table: no two nodes may have the same byte.
-TEST(MvhRuns, giveEachInnerNodeAByteOfItsOwn) {
+TEST(NibbleRuns, giveEachInnerNodeAByteOfItsOwn) {
     for (const uint32_t leafSize : {1u, 3u, 4u, 7u, 16u})
         for (uint32_t i = 0; i < 4 * 40; ++i) {
-            const MvhRuns shape(leafSize);
+            const NibbleRuns shape(leafSize);
             const uint32_t start = i % 4, count = i / 4 + 1;
             std::set<uint32_t> bytes;
             size_t inner = 0;
             const uint32_t total = start + 3 * count;
-            std::vector<MvhRun> waiting;
+            std::vector<NibbleRun> waiting;
             for (uint32_t tree = 0; tree < 3; ++tree)
                 waiting.push_back(shape.root({start + tree * count, count}));
             while (!waiting.empty()) {
-                const MvhRun run = waiting.back();
+                const NibbleRun run = waiting.back();
                 waiting.pop_back();
                 if (run.isLeaf()) continue;
                 ++inner;
@@ -69,7 +69,7 @@ TEST(MvhRuns, giveEachInnerNodeAByteOfItsOwn) {
         }
 }
 
-TEST(MvhBlases, takeAByteForEveryLeaf) {
+TEST(NibbleBlases, takeAByteForEveryLeaf) {
     const Scene scene = test::sphereScene(60, 30);
     const Bvh bvh = builders()[0].function(scene, {.costs = {}, .maxLeafSize = 1});
     for (const uint32_t leafSize : {4u, 16u}) {
@@ -119,10 +119,10 @@ TEST(QuantizedBlases, goOnWhereTheTopEnds) {
     }
 }
 
-// Each code cuts along one axis, by the parts that mvhCut states.
-TEST(MvhBlases, everyCodeLeavesTheOtherAxesAlone) {
+// Each code cuts along one axis, by the parts that nibbleCut states.
+TEST(NibbleBlases, everyCodeLeavesTheOtherAxesAlone) {
     const InsetFrame frame({{0, 0, 0}, {16, 32, 64}});
-    for (uint32_t code = 0; code < kMvhCodes; ++code) {
+    for (uint32_t code = 0; code < kNibbleCodes; ++code) {
         const Aabb box = frame.floats(cutBox(frame, {}, code));
         int changed = 0;
         for (int axis = 0; axis < 3; ++axis)

@@ -1,4 +1,5 @@
-// BLASes in the mvh form: trees without pointers, planes or counts; a byte for every leaf.
+// BLASes in the nibble encoding: trees without pointers, planes or counts; a byte for every leaf. Users know it
+// as mvh, the name of its paper; what the mvh form stores is another encoding, of 2 bits (compress/mvh_tree.h).
 //
 // After P. Bauszat, M. Eisemann, M. Magnor, "The Minimal Bounding Volume Hierarchy", VMV 2010: the shape of a
 // tree follows from the number of its primitives, and a child's box from its parent's by a short code that
@@ -11,7 +12,7 @@
 //   one side.
 // - A tree's nodes are split by halves of its leaves, so that all of a subtree's primitives are one run; the
 //   last leaf is short, and no triangle is stored twice.
-// - All trees share one array of bytes without a table: see MvhRuns.
+// - All trees share one array of bytes without a table: see NibbleRuns.
 #pragma once
 
 #include "compress/forest.h"
@@ -21,7 +22,7 @@
 namespace bvhio {
 
 /// A node: the run of primitives below it, and how many leaves they fill.
-struct MvhRun {
+struct NibbleRun {
     uint32_t first, count;
     uint32_t slot;  // first / leafSize, rounded down
     uint32_t leaves;
@@ -40,23 +41,23 @@ struct MvhRun {
 /// codes of the two children are byte middle / leafSize of the array, the left child's in the lower bits. No
 /// two nodes share a byte: splits within a tree are leafSize or more apart, and the first split of a tree is
 /// at least leafSize after its first primitive, which is after every split of the trees before.
-class MvhRuns {
+class NibbleRuns {
   public:
     static constexpr uint32_t kMaxLeafSize = 16;
     static constexpr uint32_t kMaxReferences = 1u << 29;
 
-    explicit MvhRuns(uint32_t leafSize)
+    explicit NibbleRuns(uint32_t leafSize)
         : leafSize_(leafSize), reciprocal_(((uint64_t(1) << kShift) + leafSize - 1) / leafSize) {}
 
     uint32_t leafSize() const { return leafSize_; }
-    BVHIO_INLINE MvhRun root(PrimitiveRange run) const {
+    BVHIO_INLINE NibbleRun root(PrimitiveRange run) const {
         return {run.first, run.count, inLeaves(run.first), inLeaves(run.count + leafSize_ - 1)};
     }
     /// Return the children of an inner node, without a division.
-    BVHIO_INLINE MvhRun left(const MvhRun& run) const {
+    BVHIO_INLINE NibbleRun left(const NibbleRun& run) const {
         return {run.first, run.leftLeaves() * leafSize_, run.slot, run.leftLeaves()};
     }
-    BVHIO_INLINE MvhRun right(const MvhRun& run) const {
+    BVHIO_INLINE NibbleRun right(const NibbleRun& run) const {
         const uint32_t left = run.leftLeaves();
         return {run.first + left * leafSize_, run.count - left * leafSize_, run.slot + left,
                 run.leaves - left};
@@ -76,14 +77,14 @@ class MvhRuns {
 };
 
 /// How far a code moves each side of the box inwards, as a part of the box's size.
-struct MvhCut {
+struct NibbleCut {
     float min[3], max[3];
 };
-inline constexpr uint32_t kMvhCodes = 16;
+inline constexpr uint32_t kNibbleCodes = 16;
 /// Returns what a code cuts. Code 0 keeps the box. Codes 1 + 5 a to 5 + 5 a cut along axis a: 7/16 or 1/4 off
 /// the low side, 7/16 or 1/4 off the high side, 1/4 off both.
-constexpr MvhCut mvhCut(uint32_t code) {
-    MvhCut cut{};
+constexpr NibbleCut nibbleCut(uint32_t code) {
+    NibbleCut cut{};
     if (code == 0) return cut;
     const uint32_t axis = (code - 1) / 5, kind = (code - 1) % 5;
     constexpr float kLarge = 0.4375f, kSmall = 0.25f;
@@ -95,28 +96,29 @@ constexpr MvhCut mvhCut(uint32_t code) {
 /// Returns the box of a child with this code.
 InsetBox cutBox(const InsetFrame& frame, const InsetBox& box, uint32_t code);
 
-class MvhBlases {
+class NibbleBlases {
   public:
     static constexpr std::string_view kName = "mvh";
     static constexpr std::string_view kSummary = "a byte per leaf, trees of their own (after Minimal BVH)";
     static constexpr bool kAreRuns = true;
 
-    MvhBlases(uint32_t leafSize, SharedArray<uint8_t> codes) : shape_(leafSize), codes_(std::move(codes)) {}
+    NibbleBlases(uint32_t leafSize, SharedArray<uint8_t> codes)
+        : shape_(leafSize), codes_(std::move(codes)) {}
 
     /// Builds trees with leaves of this size over the runs of `primitives` at `places`, and puts the
     /// primitives into the order of their trees. `boxes` has for each entry of `primitives` the box that must
     /// hold it. `ordered` has, at the start of a run that already is in a tree's order, the run's length, and
     /// 0 elsewhere. Throws Error{unsupported} above 2^29 references. Parallel.
-    static MvhBlases encode(uint32_t leafSize, const RootPlaces& places, std::span<uint32_t> primitives,
-                            std::span<const Aabb> boxes, std::span<const uint32_t> ordered);
+    static NibbleBlases encode(uint32_t leafSize, const RootPlaces& places, std::span<uint32_t> primitives,
+                               std::span<const Aabb> boxes, std::span<const uint32_t> ordered);
     Forest decode(const RootPlaces& places) const;
 
-    const MvhRuns& shape() const { return shape_; }
+    const NibbleRuns& shape() const { return shape_; }
     const SharedArray<uint8_t>& codes() const { return codes_; }
     size_t nodeBytes() const { return codes_.size(); }
 
   private:
-    MvhRuns shape_;
+    NibbleRuns shape_;
     SharedArray<uint8_t> codes_;
 };
 

@@ -1,4 +1,4 @@
-#include "compress/mvh_blases.h"
+#include "compress/nibble_blases.h"
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@
 namespace bvhio {
 
 InsetBox cutBox(const InsetFrame& frame, const InsetBox& box, uint32_t code) {
-    const MvhCut cut = mvhCut(code);
+    const NibbleCut cut = nibbleCut(code);
     InsetBox result = box;
     for (int axis = 0; axis < 3; ++axis) {
         const double size = frame.size(box, axis);
@@ -44,7 +44,7 @@ bool holds(const InsetFrame& frame, const InsetBox& box, const Aabb& inner) {
 uint32_t bestCode(const InsetFrame& frame, const InsetBox& box, const Aabb& inner) {
     uint32_t best = 0;
     double least = areaOf(frame, box);
-    for (uint32_t code = 1; code < kMvhCodes; ++code) {
+    for (uint32_t code = 1; code < kNibbleCodes; ++code) {
         const InsetBox child = cutBox(frame, box, code);
         const double area = areaOf(frame, child);
         if (area < least && holds(frame, child, inner)) {
@@ -63,12 +63,12 @@ Aabb boundsOf(std::span<const Reference> references) {
 
 class Builder {
   public:
-    Builder(const MvhRuns& shape, const InsetFrame& frame, uint8_t* codes)
+    Builder(const NibbleRuns& shape, const InsetFrame& frame, uint8_t* codes)
         : shape_(shape), frame_(frame), codes_(codes) {}
 
     /// Puts the run's references into the order of its leaves, and writes the codes. The box must hold the
     /// references. Large parts are built in parallel.
-    void build(const MvhRun& run, const InsetBox& box, std::span<Reference> references) {
+    void build(const NibbleRun& run, const InsetBox& box, std::span<Reference> references) {
         const auto byPrimitive = [](const Reference& a, const Reference& b) {
             return a.primitive < b.primitive;
         };
@@ -119,7 +119,7 @@ class Builder {
     }
 
     /// Writes the codes of references that already are in order.
-    void code(const MvhRun& run, const InsetBox& box, std::span<const Reference> references) {
+    void code(const NibbleRun& run, const InsetBox& box, std::span<const Reference> references) {
         if (run.isLeaf()) return;
         const std::span<const Reference> left = references.first(shape_.left(run).count),
                                          right = references.subspan(shape_.left(run).count);
@@ -139,7 +139,7 @@ class Builder {
         return key == Key::center ? low + high : key == Key::low ? low : high;
     }
 
-    const MvhRuns& shape_;
+    const NibbleRuns& shape_;
     const InsetFrame& frame_;
     uint8_t* codes_;
 };
@@ -147,7 +147,7 @@ class Builder {
 /// Decodes the trees one after another. The nodes below each root are appended in pairs.
 class Decoder {
   public:
-    Decoder(const MvhRuns& shape, const RootPlaces& places, std::span<const uint8_t> codes,
+    Decoder(const NibbleRuns& shape, const RootPlaces& places, std::span<const uint8_t> codes,
             Buffer<Node>& nodes)
         : shape_(shape), places_(places), codes_(codes), nodes_(nodes) {}
 
@@ -156,12 +156,12 @@ class Decoder {
     }
 
   private:
-    Node node(size_t tree, const MvhRun& run, const InsetBox& box, const Aabb& bounds) {
+    Node node(size_t tree, const NibbleRun& run, const InsetBox& box, const Aabb& bounds) {
         if (run.isLeaf()) return {bounds, run.first, run.count};
         const size_t pair = next_;
         next_ += 2;
         const uint32_t codes = codes_[run.codes()];
-        const auto child = [&](uint32_t code, const MvhRun& childRun) {
+        const auto child = [&](uint32_t code, const NibbleRun& childRun) {
             const InsetBox childBox = cutBox(places_.frame(tree), box, code);
             return node(tree, childRun, childBox, places_.floats(tree, childBox));
         };
@@ -170,7 +170,7 @@ class Decoder {
         return {bounds, uint32_t(pair), 0};
     }
 
-    const MvhRuns& shape_;
+    const NibbleRuns& shape_;
     const RootPlaces& places_;
     std::span<const uint8_t> codes_;
     Buffer<Node>& nodes_;
@@ -179,13 +179,13 @@ class Decoder {
 
 }  // namespace
 
-MvhBlases MvhBlases::encode(uint32_t leafSize, const RootPlaces& places, std::span<uint32_t> primitives,
-                            std::span<const Aabb> boxes, std::span<const uint32_t> ordered) {
-    if (primitives.size() > MvhRuns::kMaxReferences)
+NibbleBlases NibbleBlases::encode(uint32_t leafSize, const RootPlaces& places, std::span<uint32_t> primitives,
+                                  std::span<const Aabb> boxes, std::span<const uint32_t> ordered) {
+    if (primitives.size() > NibbleRuns::kMaxReferences)
         throw Error(ErrorKind::unsupported, "BLASes in the mvh form hold at most " +
-                                                std::to_string(MvhRuns::kMaxReferences) +
+                                                std::to_string(NibbleRuns::kMaxReferences) +
                                                 " references: use another --blas-form");
-    const MvhRuns shape(leafSize);
+    const NibbleRuns shape(leafSize);
     Buffer<uint8_t> codes(shape.byteCount(primitives.size()));
     std::fill_n(codes.data(), codes.size(), uint8_t(0));
     // Trees of meshes may be large, so each of them is a task.
@@ -193,7 +193,7 @@ MvhBlases MvhBlases::encode(uint32_t leafSize, const RootPlaces& places, std::sp
     parallelChunks(places.runs.size(), grain, [&](size_t begin, size_t end) {
         std::vector<Reference> references;
         for (size_t i = begin; i < end; ++i) {
-            const MvhRun run = shape.root(places.runs[i]);
+            const NibbleRun run = shape.root(places.runs[i]);
             references.resize(run.count);
             for (uint32_t k = 0; k < run.count; ++k)
                 references[k] = {boxes[run.first + k], primitives[run.first + k]};
@@ -208,7 +208,7 @@ MvhBlases MvhBlases::encode(uint32_t leafSize, const RootPlaces& places, std::sp
     return {leafSize, std::move(codes).share()};
 }
 
-Forest MvhBlases::decode(const RootPlaces& places) const {
+Forest NibbleBlases::decode(const RootPlaces& places) const {
     size_t slots = 0;
     for (const PrimitiveRange& run : places.runs) slots += shape_.root(run).slotsBelow();
     Buffer<Node> roots(places.runs.size()), nodes(slots);

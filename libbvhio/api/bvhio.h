@@ -372,8 +372,8 @@ typedef struct BvhioSceneArrays {
 
 /* Checks your arrays, and makes a scene of copies of them. BVHIO_INVALID, with the first fault in
  * bvhioLastError: no triangles, an index out of range, a NaN or infinite coordinate, counts that disagree, a
- * transform that cannot be inverted. BVHIO_UNSUPPORTED: a count above the limits stated there. Coordinates of -0
- * become +0. */
+ * transform that cannot be inverted. BVHIO_UNSUPPORTED: a count above the limits at the fields above. Coordinates
+ * of -0 become +0. */
 BVHIO_API BvhioStatus bvhioCreateScene(const BvhioSceneArrays* arrays, BvhioScene** scene);
 
 /* Frees a scene. NULL is allowed. */
@@ -442,7 +442,7 @@ BVHIO_API BvhioStatus bvhioSaveFile(const BvhioContainer* container, const char*
                                     const BvhioContext* context);
 
 /* Saves to memory. `bytes` receives a block of `size` bytes at an address that is a multiple of 64, suitable for
- * bvhioOpenMemory. Free it with bvhioFree. */
+ * bvhioOpenMemory. Free it with bvhioFree. `context` is as for bvhioSaveFile. */
 BVHIO_API BvhioStatus bvhioSaveMemory(const BvhioContainer* container, const BvhioContext* context,
                                       void** bytes, size_t* size);
 

@@ -51,6 +51,13 @@
 extern "C" {
 #endif
 
+/* Enums can hold any int in C++ too, so that a wrong value is an error, not undefined behaviour. */
+#ifdef __cplusplus
+#define BVHIO_ANY_INT : int
+#else
+#define BVHIO_ANY_INT
+#endif
+
 /* ---- Version --------------------------------------------------------------- */
 
 /* The version of this header. */
@@ -68,7 +75,7 @@ BVHIO_API const char* bvhioVersionText(void);
 /* ---- Errors ---------------------------------------------------------------- */
 
 /* How a function ended. Values 1 to 5 are the exit codes of the command-line tools. */
-typedef enum BvhioStatus {
+typedef enum BvhioStatus BVHIO_ANY_INT {
     BVHIO_OK = 0,
     BVHIO_USAGE = 1,       /* a wrong argument or option */
     BVHIO_IO = 2,          /* a missing file, a full disk, no permission */
@@ -382,7 +389,7 @@ BVHIO_API void bvhioDestroyScene(BvhioScene* scene);
 /* ---- Passes ---------------------------------------------------------------- */
 
 /* Kinds of methods that passes use; each method has a name. */
-typedef enum BvhioMethod {
+typedef enum BvhioMethod BVHIO_ANY_INT {
     BVHIO_BUILDER = 0,      /* of bvhioBuild: option "builder" */
     BVHIO_RESTRUCTURER = 1, /* of bvhioRestructure: option "method" */
     BVHIO_LAYOUT = 2,       /* of bvhioRelayout: option "layout" */
